@@ -217,8 +217,7 @@ void findParts(const RenderOptions& options, const graph::Plan& plan, FrameRun& 
   }
 }
 
-// The manifest of the options, if any, once the graph is loaded; frames that it knows as done are taken out of the run. False
-// after an error.
+// The manifest of the options, if any, once the graph is loaded; frames that it knows as done are taken out of the run. False after an error.
 bool openManifest(const RenderOptions& options, const std::string& path, DeviceSession& session,
                   std::span<const OutputFile> outputs, FrameRun& run, text::Diagnostics& diagnostics) {
   const gl::DeviceInfo& device = session.context->device();

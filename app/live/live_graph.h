@@ -60,8 +60,7 @@ class LiveGraph {
   void endChange() { changing_.clear(); }
   // Another graph, scene or environment, or one more preset: what the file holds decides. False, and nothing has changed.
   bool open(const std::string& file, text::Diagnostics& diagnostics);
-  // The next (1) or previous (-1) preset that the graph takes, of all that have names; instead of the last one, if that has a name. False
-  // when it takes none.
+  // The next (1) or previous (-1) preset that the graph takes, of all that have names; instead of the last one, if that has a name. False when it takes none.
   bool stepPreset(int by, text::Diagnostics& diagnostics);
 
   // Everything that was read, or missed.

@@ -91,8 +91,7 @@ class LiveEnvironment {
   // The one `by` files after the last one asked for, in a circle, by name. False when there is no other.
   bool step(int by);
 
-  // Once per frame: something came of the last request. A map, for which the GPU has room; null: it failed, and `diagnostics` says
-  // why.
+  // Once per frame: something came of the last request. A map, for which the GPU has room; null: it failed, and `diagnostics` says why.
   std::optional<Map> poll(text::Diagnostics& diagnostics);
 
   // Whether wanted() is on its way.

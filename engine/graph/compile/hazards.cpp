@@ -215,8 +215,7 @@ class Collector {
   }
 
   // From the end of one frame to the start of the next. A history resource has rotated by then: what is now
-  // the current copy was the oldest, and was last stored to a whole rotation ago. What a time-sliced group writes
-  // may have, or may not.
+  // the current copy was the oldest, and was last stored to a whole rotation ago. What a time-sliced group writes may have, or may not.
   void advanceFrame() {
     std::vector<Cell> ended;
     if (!histories_.empty()) ended = cells_;

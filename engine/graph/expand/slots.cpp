@@ -132,8 +132,7 @@ void noteOff(const SlotContext& context, const Leaf& leaf, const RefDesc& ref) {
 }
 
 // All concrete candidates of a reference whose conditions hold, in order; the others are noted. `leaf` says what `ref` means, and what
-// is said of it from outside; `sample` how that is sampled by itself; `unbound` becomes an input to which nothing is bound. False after a
-// report.
+// is said of it from outside; `sample` how that is sampled by itself; `unbound` becomes an input to which nothing is bound. False after a report.
 bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref, const RefDesc* sample,
                    Leaf leaf, std::vector<Leaf>& leaves, std::string& unbound) {
   Model& model = context.model;

@@ -87,8 +87,7 @@ void linkVersions(FlatGraph& graph) {
 
 namespace {
 
-// Where every link leads back: one backward sweep over the uses, without a branch on what they are. A worklist takes a third more
-// of compile()'s time.
+// Where every link leads back: one backward sweep over the uses, without a branch on what they are. A worklist takes a third more of compile()'s time.
 void sweepBack(const FlatGraph& graph, std::uint8_t* const livePass, std::uint8_t* const liveUse) {
   const VersionLinks& links = graph.links;
   const std::uint32_t* const passOf = links.passOf.data();

@@ -40,8 +40,7 @@ class VersionWalk {
     else
       writePart(use);
   }
-  // `next`, which nobody wrote yet, takes the place of `last`, which is of the same shape and is not used any more: it
-  // takes over its memory.
+  // `next`, which nobody wrote yet, takes the place of `last`, which is of the same shape and is not used any more: it takes over its memory.
   void replace(std::uint32_t last, std::uint32_t next);
   // After the last pass: reads of earlier frames, present and outputs. The resources of all uses are known by then.
   void finish();

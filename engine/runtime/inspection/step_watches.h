@@ -34,8 +34,7 @@ class StepRecorder {
 
 // ---- poison ----
 // Fills what a transient resource finds in its storage with values that no pass would write, right before the first step
-// that touches it. A pass that promised to write everything and does not, or that reads what nobody wrote, then shows in
-// the picture.
+// that touches it. A pass that promised to write everything and does not, or that reads what nobody wrote, then shows in the picture.
 
 // Two patterns, because formats without NaN have no value that stands out in every picture.
 enum class PoisonPattern : std::uint8_t {

@@ -46,8 +46,7 @@ bool checkProgram(const graph::Plan& plan, std::uint32_t pass, std::span<const g
                   text::Diagnostics& diagnostics);
 
 // Warns of words that only the conditionals of the shaders have and that nothing defines, when a define or HAS_… of the pass is
-// nearly that word, of a define that is 0 and only asked for by #ifdef, and of a define that is nearly a word of theirs
-// (W187).
+// nearly that word, of a define that is 0 and only asked for by #ifdef, and of a define that is nearly a word of theirs (W187).
 void warnOfConditions(const graph::PassSpec& pass, std::span<const gl::StageSource> stages,
                       std::span<const glsl::Define> defines, text::Diagnostics& diagnostics);
 

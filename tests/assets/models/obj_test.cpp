@@ -1,4 +1,6 @@
 // OBJ files as people have them. Right values come from the formats' descriptions, areas from the polygons themselves.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -124,6 +126,15 @@ TEST_CASE("OBJ: what is not drawn is one warning of each kind, and the rest is d
   CHECK(warningsOf(folder, square + line + flat).size() == 1);
   CHECK(warningsOf(folder, square + "f 1 2 9\nf 1 2 -7\nf 1/9 2/1 3/1\n").size() == 1);
   CHECK(warningsOf(folder, square + "usemtl other\nf 1 2 3\nusemtl other\nf 1 3 4\n").size() == 1);
+  std::string many = square, maps;
+  for (int i = 0; i < 1200; ++i) many += fmt::format("usemtl m{}\nf 1 2 3\n", i);
+  CHECK(warningsOf(folder, many).size() == 1001);
+  for (int i = 0; i < 4100; ++i) maps += fmt::format("newmtl m{}\nmap_Kd {}.png\n", i, i);
+  folder.write("m.mtl", maps);
+  text::Diagnostics files;
+  CHECK_FALSE(loadModel(folder.write("m.obj", square), files));
+  CHECK(files.errorCount() == 1);
+  CHECK(files.contains(text::Code::limitExceeded));
   folder.write("m.mtl", "newmtl m\nKd 1 1 1\nmap_Ks x.png\nPs 0.5\nPs 0.5\n");
   CHECK(warningsOf(folder, square).size() == 2);
   // Maps of faces without texture coordinates, once for a material.

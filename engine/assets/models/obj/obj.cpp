@@ -118,7 +118,8 @@ class MtlReader {
     glm::vec4 move{1, 1, 0, 0};
   };
 
-  void leaveOut(const std::string& what, const Place& place) {
+  void leaveOut(std::string what, const Place& place) {
+    if (said_.size() >= 1000) what = "more of the model's materials";
     if (said_.insert(what).second) diagnostics_.warning(say::leftOut, place, what, "");
   }
 

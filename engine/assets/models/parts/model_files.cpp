@@ -35,8 +35,8 @@ std::optional<std::string> ModelFiles::readModel() {
 }
 
 std::string ModelFiles::resolve(const std::string& name) const {
-  if (name.empty() || name.find('\0') != std::string::npos || name.find('\\') != std::string::npos ||
-      hasScheme(name) || leadsOut(name))
+  if (files_.size() > text::raised(kMaxModelFiles) || name.empty() || name.find('\0') != std::string::npos ||
+      name.find('\\') != std::string::npos || hasScheme(name) || leadsOut(name))
     return "";
   const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
   const std::string target = (folder / name).lexically_normal().string();
@@ -53,6 +53,7 @@ std::string ModelFiles::resolve(const std::string& name) const {
 
 std::optional<std::string> ModelFiles::readBeside(const std::string& uri, const Place& place, Code code,
                                                   bool escaped, text::Severity severity) {
+  if (files_.size() > text::raised(kMaxModelFiles)) return {};  // W201
   const std::string name = escaped ? text::unescapeUri(uri) : uri;
   const std::string target = resolve(name);
   if (target.empty()) {
@@ -65,6 +66,11 @@ std::optional<std::string> ModelFiles::readBeside(const std::string& uri, const 
     return {};
   }
   if (std::ranges::find(files_, target) == files_.end()) files_.push_back(target);
+  if (files_.size() > text::raised(kMaxModelFiles)) {
+    text::reportLimit(diagnostics_, place, "the model names too many files", kMaxModelFiles,
+                      "files of one model");
+    return {};
+  }
   text::Diagnostics found;
   std::optional<std::string> bytes = readCounted(target, place, code, found);
   for (text::Diagnostic each : found.items()) {

@@ -137,8 +137,11 @@ std::uint32_t TexturePool::rowOf(const Use& use, std::vector<Texture>& textures)
     return kNoRow;
   }
   static const std::shared_ptr<const Image8> kMissing = makeCheckerboard();
-  const std::uint64_t content = text::hashCombine(
-      image && !use.make ? images_[use.image].content : hashOf(image ? *image : *kMissing), color ? 1 : 0);
+  static const std::uint64_t kMissingContent = hashOf(*kMissing);
+  const std::uint64_t content = text::hashCombine(!image     ? kMissingContent
+                                                  : use.make ? hashOf(*image)
+                                                             : images_[use.image].content,
+                                                  color ? 1 : 0);
   const auto row =
       static_cast<std::size_t>(std::ranges::find(textures, content, &Texture::content) - textures.begin());
   if (row == textures.size()) {

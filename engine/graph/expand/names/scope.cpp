@@ -113,8 +113,7 @@ void buildScope(Model& model, Scope& scope) {
       return stopAt(model, model.desc.place, fmt::format("the graph has too many {}", what), bound, what);
 }
 
-// Of an include: an input takes the whole of a resource, an import one of its kind, and of its type where the file declares it and so
-// has arguments for it.
+// Of an include: an input takes the whole of a resource, an import one of its kind, and of its type where the file declares it and so has arguments for it.
 void checkBinds(Model& model, Scope& scope) {
   const IncludeDesc& include = *scope.stanza->include;
   for (const auto& [name, ref] : include.binds) {
