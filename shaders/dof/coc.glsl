@@ -21,17 +21,21 @@ float cocDepth(float radius, float infinity, float focus) {
 #define SCALE 2
 #endif
 
-// Radius in texels of the fields up to which nothing is blurred.
-const float kLeastRadius = 0.5 / float(SCALE);
+// Discs below the first radius, in pixels of the full picture, are gathered from it (small/gather.comp.glsl), those above the second from
+// the fields, in between a part by each.
+const float kSmall = 3.0, kLarge = 4.0;
+
+// Radius in texels of the fields up to which they have nothing to blur.
+const float kLeastRadius = kSmall / float(SCALE);
 
 // Twice the share of the far field that a texel in focus has.
 const float kLeastShare = 2e-3;
 
-// The weight of the blur for a radius in pixels of the full picture: below half a pixel the picture stays sharp.
-float blurOf(float radius) { return smoothstep(0.5, 1.5, abs(radius)); }
+// The share of the fields in a disc of a radius in pixels of the full picture.
+float fieldShare(float radius) { return smoothstep(kSmall, kLarge, abs(radius)); }
 
-// The weight of a picture from the fields beside the sharp one, for a radius in pixels of the full picture. Where fields have half its size,
-// both together have the variance of the disc: fields and their filtering have that of a disc of nearly two pixels.
-float sharedBlur(float radius) { return SCALE == 2 ? clamp(0.27 * radius * radius, 0.0, 1.0) : blurOf(radius); }
+// Discs whose radii differ by less than this, in pixels, are of one surface; the nearer one by twice as much lies wholly over the other.
+vec4 gapAt(vec4 radius) { return 0.1 * abs(radius) + 0.2; }
+float nearerBy(float own, float radius) { return clamp((own - radius) / gapAt(vec4(own)).x - 1.0, 0.0, 1.0); }
 
 #endif

@@ -40,7 +40,7 @@ void takePlace(Search search, bool each, vec2 at, float across, float share) {
   }
   float is_over = liesOver(disc * per_radius), is_behind = liesBehind(disc * per_radius);
   vec4 lit = light * c;
-  over += is_over * lit;
+  over += is_over * fieldShare(float(SCALE) * disc) * lit;
   behind += is_behind * lit;
   own += (1.0 - is_over - is_behind) * lit;
   unseen += (1.0 - is_behind) * min(4.0 * c.a, 1.0) * (light - lit.a);
@@ -73,6 +73,6 @@ void main() {
   }
   float beside = behind.a > 0.0 ? clamp(rest - shape * own.a, 0.0, seen) : 0.0;
   vec3 light = over.rgb + own.rgb * ((rest - beside) / max(own.a, 1e-7)) + behind.rgb * (beside / max(behind.a, 1e-7));
-  float trust = max(blurOf(float(SCALE) * own_radius), 1e-3);
+  float trust = 1.0;
   result = vec4(light * trust, trust);
 }

@@ -25,9 +25,9 @@ void main() {
   float radius = lens.x - lens.y * textureLod(depth, at, 0.0).r;
 #if NEAR
   // Small discs of the near field are blended over the sharp picture: their surface continues into the focus.
-  float blur = smoothstep(kNearStart, 3.0, -radius);
+  float blur = nearShown(radius);
 #else
-  float blur = sharedBlur(radius);
+  float blur = step(kSmall, radius);
 #endif
   vec4 layer = textureLod(blurred, at_half, 0.0);
   blur = layer.a > 0.0 ? blur : 0.0;

@@ -3,7 +3,10 @@
 #ifndef DOF_FAR_FIELD_GLSL
 #define DOF_FAR_FIELD_GLSL
 
+#include "dof/coc.glsl"
+
 // Radius in the near field from which the far field is visible beside it.
-const float kNearStart = 1.0;
+const float kNearStart = kSmall;
+float nearShown(float radius) { return smoothstep(kNearStart, kLarge, -radius); }
 
 #endif

@@ -22,6 +22,5 @@ void main() {
   at = gl_Position.xy * 0.5 + 0.5;
   at_half = at * viewport / float(SCALE) / vec2(textureSize(blurred, 0));
   lens = vec2(infinity, infinity * focus / near_plane);
-  // Discs that are alike are larger than those that are blended with the sharp picture.
-  gl_Position.z = cocDepth(EVEN == 1 ? 1.5 : 0.5, infinity, focus);
+  gl_Position.z = cocDepth(kSmall, infinity, focus);
 }

@@ -37,6 +37,6 @@ void main() {
   if (seen.a > 0.0) seen = mix(seen / seen.a, all / all.a, clamp(2.0 * radii / max(all.a * disc, 1e-7) - 1.0, 0.0, 1.0));
   // Small discs leave gaps, through which the background shows in part, see far_field.frag.glsl. Behind larger ones the sharp picture must
   // not show: the near field covers it except for rounding, which a bright light would turn into a spot.
-  float trust = seen.a > 0.0 || float(SCALE) * disc >= 3.0 ? 1.0 : 0.0;
+  float trust = seen.a > 0.0 || float(SCALE) * disc >= kLarge ? 1.0 : 0.0;
   result = vec4(seen.rgb / max(seen.a, 1e-7), trust);
 }

@@ -54,7 +54,7 @@ void takePlace(Search search, bool each, vec2 at, float across, float share) {
   float sharing = each ? spread.sum : 0.0;
   for (int k = 0; k <= search.outermost; ++k)
     sharing += float(max(FIRST_RING * k, 1)) * reachesRing(search, spread.radius, ringRadius(search, k));
-  share *= blurOf(float(SCALE) * disc) * reaches(search, each, spread, across) / sharing;
+  share *= fieldShare(float(SCALE) * disc) * reaches(search, each, spread, across) / sharing;
   float is_over = liesOver(disc, own_radius);
   if (over) {
     all.spread += is_over * share * c;
@@ -89,6 +89,7 @@ void main() {
     float rest = 1.0 - result.a, beside = all.behind.a + all.farther;
     float seen = beside / all.places, hidden = rest * seen / max(seen + min(all.spread.a, rest), 1e-6);
     float own_share = rest - hidden;
-    result += all.spread * (own_share / max(all.spread.a, 1e-6)) + all.behind * (hidden / max(beside, 1e-6));
+    vec4 shown = all.spread * (own_share / max(all.spread.a, 1e-6)) + all.behind * (hidden / max(beside, 1e-6));
+    result += fieldShare(float(SCALE) * own_radius) * shown;
   }
 }

@@ -5,11 +5,12 @@
 //         disc    radius of the disc in texels of the fields, times the share, of either field
 //         far     radiance of the nearest blurred surface of the rest, premultiplied, and its share of the pixel. Surfaces in focus have
 //                 next to none, so that they do not count in a mean with blurred ones; 0 where the near field hides all of it
-//         idle    depth: 0 where far_bokeh has work, 1 where far_hidden has, else a half
+//         idle    see idle.glsl
 // params  infinity  radius in pixels of the full picture of a point infinitely far away
 //         focus     distance in focus, world units along the view axis
 //         largest   limit of the radius, pixels of the full picture
 #include "coc.glsl"
+#include "idle.glsl"
 #include "common/finite.glsl"
 
 uniform sampler2D color, depth;
@@ -38,21 +39,22 @@ void main() {
   float end = 1e9;
   for (int i = 0; i < pixels; ++i) {
     radii[i] = cocRadius(depths[i], infinity, focus, float(largest) - 1.0);
-    if (radii[i] >= 1.0) end = min(end, endOfSurface(radii[i]));
+    if (radii[i] >= kSmall) end = min(end, endOfSurface(radii[i]));
   }
   vec4 near_mean = vec4(0.0);
-  float near_weight = 0.0, near_count = 0.0, far_disc = 0.0;
+  float near_weight = 0.0, near_count = 0.0, far_disc = 0.0, small = 0.0;
   far = vec4(0.0);
   for (int i = 0; i < pixels; ++i) {
     vec2 at = middle + (vec2(i & 1, i >> 1) - 0.5) * texel * float(SCALE - 1);
-    float radius = radii[i], blur = blurOf(radius);
+    float radius = radii[i];
     vec4 c = vec4(finite(textureLod(color, at, 0.0).rgb), abs(radius) / float(SCALE));
-    bool nearer = radius < -0.5;
-    float w = nearer ? blur : 0.0;
+    bool nearer = radius < -kSmall;
+    small = max(small, abs(radius) < kLarge ? abs(radius) : 0.0);
+    float w = float(nearer);
     near_mean += c * w;
     near_weight += w;
     near_count += float(nearer);
-    w = nearer || radius > end ? 0.0 : part * max(radius > 0.0 ? blur : 0.0, 0.5 * kLeastShare);
+    w = nearer || radius > end ? 0.0 : part * (radius > kSmall ? 1.0 : 0.5 * kLeastShare);
     far += vec4(c.rgb, 1.0) * w;
     far_disc += c.a * w;
   }
@@ -60,6 +62,7 @@ void main() {
   near_mean /= max(near_weight, 1e-6);
   near = vec4(near_mean.rgb, 1.0) * share;
   disc = vec2(near_mean.a * share, far_disc);
-  float busy = far.a > 0.0 ? 0.0 : 1.0;
-  gl_FragDepth = (far.a > 0.0 ? far_disc / far.a : disc.r) > kLeastRadius ? busy : 0.5;
+  // A texel that is in part of the near field and else in focus has nothing for far_bokeh to blur, but shows what is behind.
+  bool busy = far.a > 0.0 && far_disc / far.a > kLeastRadius;
+  gl_FragDepth = workOf(busy, !busy && near_mean.a > kLeastRadius, small);
 }

@@ -45,13 +45,19 @@ float passing(vec2 middle, float radius, float nearest) {
   return seen;
 }
 
+// The part of a highlight's light that is drawn here; small/gather.comp.glsl has gathered the rest, on the highlight's own surface as if its
+// disc were that of the pixel.
+float shareAt(float own, float radius) {
+  return fieldShare(mix(radius, own, 1.0 - nearerBy(max(own, radius), min(own, radius))));
+}
+
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy), at = pixel / (tile * SCALE);
   float own = cocRadius(texelFetch(depth, pixel, 0).r, infinity, focus, 1e4);
   // The share of the far field that the near field does not cover.
   float open = 1.0 - min(textureLod(covering, gl_FragCoord.xy / float(SCALE) / vec2(textureSize(covering, 0)), 0.0).a, 1.0);
-  open *= own < 0.0 ? smoothstep(kNearStart, 3.0, -own) : 1.0;
-  vec3 light = vec3(0.0);
+  open *= own < 0.0 ? nearShown(own) : 1.0;
+  vec3 light = vec3(0.0), drawn = vec3(0.0);
   for (int i = 0; i < 9; ++i) {
     ivec2 there = at + ivec2(i % 3, i / 3) - 1;
     bool inside = there == clamp(there, ivec2(0), grid - 1);
@@ -63,11 +69,13 @@ void main() {
       float seen = highlight.radius < 0.0 ? 1.0 : own < 0.0 ? open : open * smoothstep(0.77, 0.91, own / highlight.radius);
       if (covered > 0.0 && highlight.light.a < 0.0) seen = passing(highlight.middle, highlight.radius, lists[list].count.y);
       light += covered * seen * highlight.light.rgb;
+      drawn += covered * seen * shareAt(own, highlight.radius) * highlight.light.rgb;
     }
   }
   // Discs may overlap. Where their sum comes near the largest half float, "premultiplied" removes a share of the destination, so that the
-  // sum stays below it. Dimmer discs only add.
-  light = min(light, vec3(kMost));
-  float full = max(light.r, max(light.g, light.b)) / kMost;
-  result = vec4(light, full * smoothstep(0.1, 0.3, full));
+  // sum stays below it. Dimmer discs only add. What small/gather.comp.glsl has gathered leaves room for the part that is drawn.
+  float full = min(max(light.r, max(light.g, light.b)) / kMost, 1.0);
+  drawn *= min(vec3(kMost) / max(light, vec3(1e-4)), vec3(1.0));
+  float part = max(drawn.r, max(drawn.g, drawn.b)) / kMost;
+  result = vec4(drawn, part * part / max(full, 1e-4) * smoothstep(0.1, 0.3, full));
 }

@@ -11,6 +11,7 @@
 //         blades       of the aperture
 //         largest      radius of the largest disc of the far field, pixels of the full picture
 layout(local_size_x = 8, local_size_y = 8) in;
+#include "dof/coc.glsl"
 #include "list.glsl"
 
 uniform sampler2D near, far, discs, tiles, color;
@@ -21,8 +22,6 @@ layout(std140) uniform Parameters {
   float largest;
 };
 
-// Radii in pixels: discs below the first stay in the fields, those above the second are drawn, in between a part of each.
-const float kLeastDisc = 2.6, kWholeDisc = 2.95;
 const float kContrast = 4.0;       // a highlight is brighter than this times the mean of its tile
 // The same for the radiance of the disc over the mean of the tile. A blend, so that moving highlights do not switch from frame to frame.
 const float kLeastVisible = 0.01, kWholeVisible = 0.03;
@@ -85,7 +84,7 @@ Highlight highlightAt(ivec2 at, float mean) {
   bool is_near = before.g > behind.g;
   vec2 disc = texelFetch(discs, at, 0).rg;
   float radius = is_near ? disc.r / max(before.a, 0.25) : disc.g / max(behind.a, 1e-4), around = 0.0, green = before.g + behind.g;
-  if (float(SCALE) * radius < kLeastDisc) return found;
+  if (float(SCALE) * radius < kSmall) return found;
   for (int i = 0; i < 8; ++i) around = max(around, greenAt(at + kAround[i]));
   float share = (1.0 - around / green) * (1.0 - smoothstep(kAlone, kNotAlone, around / green));
   if (share <= 0.0) return found;
@@ -107,7 +106,7 @@ Highlight highlightAt(ivec2 at, float mean) {
   sum /= weights;
   float soft = sqrt(1.6 + 16.0 * max(sum.z - 0.5 * dot(sum.xy, sum.xy), 0.0));
   vec3 light = (is_near ? before.rgb : behind.rgb) * share * (float(SCALE * SCALE) / areaOf(radius, soft, blades));
-  float part = smoothstep(kLeastVisible, kWholeVisible, light.g / mean) * smoothstep(kLeastDisc, kWholeDisc, radius);
+  float part = smoothstep(kLeastVisible, kWholeVisible, light.g / mean);
   if (part <= 0.0) return found;
   share *= part;
   light *= part;
@@ -121,7 +120,7 @@ void main() {
   vec4 sum = vec4(0.0), most = vec4(0.0);
   float reached = texelFetch(tiles, at, 0).r;  // by discs of the near field
   // No disc of this tile is large enough.
-  if (max(float(SCALE) * reached, largest) < kLeastDisc) end.y = first.y;
+  if (max(float(SCALE) * reached, largest) < kSmall) end.y = first.y;
   // One of the two has no rows: in software, both sides of a condition are computed.
   survey(first, ivec2(end.x, reached > 0.0 ? first.y : end.y), false, sum, most);
   survey(first, ivec2(end.x, reached > 0.0 ? end.y : first.y), true, sum, most);
