@@ -1,5 +1,4 @@
-// The tiles of far_field.frag.glsl with NEAR, at the depth from which the far field can be visible; parameters as there.
-#include "far_field.glsl"
+// The tiles of far_field.frag.glsl beside the near field, at the depth from which the far field can be visible; parameters as there.
 #include "coc.glsl"
 #include "work.glsl"
 
@@ -10,12 +9,10 @@ layout(std140) uniform Parameters {
   int tile;
 };
 noperspective out vec2 at, at_half;
-flat out vec2 lens;
 
 void main() {
   gl_Position = workCorner(tile, SCALE, false);
   at = gl_Position.xy * 0.5 + 0.5;
   at_half = at * viewport / float(SCALE) / vec2(textureSize(blurred, 0));
-  lens = vec2(infinity, infinity * focus / near_plane);
-  gl_Position.z = min(cocDepth(-kNearStart, infinity, focus), 1.0);
+  gl_Position.z = min(cocDepth(-kSmall, infinity, focus), 1.0);
 }

@@ -73,6 +73,6 @@ void main() {
   }
   float beside = behind.a > 0.0 ? clamp(rest - shape * own.a, 0.0, seen) : 0.0;
   vec3 light = over.rgb + own.rgb * ((rest - beside) / max(own.a, 1e-7)) + behind.rgb * (beside / max(behind.a, 1e-7));
-  float trust = 1.0;
+  float trust = max(fieldShare(float(SCALE) * own_radius), 1e-3);
   result = vec4(light * trust, trust);
 }

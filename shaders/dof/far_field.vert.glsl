@@ -15,12 +15,10 @@ layout(std140) uniform Parameters {
   float focus;
 };
 noperspective out vec2 at, at_half;
-flat out vec2 lens;
 
 void main() {
   gl_Position = farCorner(tiles, SCALE, EVEN == 1);
   at = gl_Position.xy * 0.5 + 0.5;
   at_half = at * viewport / float(SCALE) / vec2(textureSize(blurred, 0));
-  lens = vec2(infinity, infinity * focus / near_plane);
   gl_Position.z = cocDepth(kSmall, infinity, focus);
 }

@@ -2,10 +2,9 @@
 // disc; the nearest where the far field is sharp, the mean where its discs are as large. Scene-referred; result premultiplied.
 // read    see far_layer.glsl
 //         tiles?   from reach, for the vertex shader
-// modify  result   alpha 1, or 0 where nothing is visible beside a disc below three pixels: there the sharp picture stays. A depth test
-//                  skips all else: see split
+// modify  result   alpha 1, or 0 where nothing is visible beside a disc: there the sharp picture stays. A depth test skips all else: see
+//                  split
 #include "far_layer.glsl"
-#include "coc.glsl"
 out vec4 result;
 
 vec2 turned(vec2 direction, vec2 by) {
@@ -35,8 +34,5 @@ void main() {
     direction = turned(direction, vec2(0.92387953, 0.38268343));
   }
   if (seen.a > 0.0) seen = mix(seen / seen.a, all / all.a, clamp(2.0 * radii / max(all.a * disc, 1e-7) - 1.0, 0.0, 1.0));
-  // Small discs leave gaps, through which the background shows in part, see far_field.frag.glsl. Behind larger ones the sharp picture must
-  // not show: the near field covers it except for rounding, which a bright light would turn into a spot.
-  float trust = seen.a > 0.0 || float(SCALE) * disc >= kLarge ? 1.0 : 0.0;
-  result = vec4(seen.rgb / max(seen.a, 1e-7), trust);
+  result = vec4(seen.rgb / max(seen.a, 1e-7), seen.a > 0.0 ? 1.0 : 0.0);
 }

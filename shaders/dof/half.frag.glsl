@@ -12,25 +12,19 @@ out vec4 far;
 #endif
 out vec2 disc;
 
+vec4 meanOf(sampler2D source) {
+  vec2 texel = 1.0 / vec2(textureSize(source, 0)), at = 2.0 * gl_FragCoord.xy * texel,
+       low = at - 0.75 * texel, high = at + 0.75 * texel;
+  return 0.25 * (textureLod(source, low, 0.0) + textureLod(source, high, 0.0) +
+                 textureLod(source, vec2(low.x, high.y), 0.0) + textureLod(source, vec2(high.x, low.y), 0.0));
+}
+
 void main() {
-  vec2 texel = 1.0 / vec2(textureSize(disc_source, 0));
-  vec3 sum = vec3(0.0);
-  vec4 far_sum = vec4(0.0);
-  near = vec4(0.0);
-  for (int i = 0; i < 4; ++i) {
-    vec2 at = (2.0 * gl_FragCoord.xy + vec2(i & 1, i >> 1) * 1.5 - 0.75) * texel, discs = textureLod(disc_source, at, 0.0).rg;
-    near += 0.25 * textureLod(near_source, at, 0.0);
-    sum.r += 0.25 * discs.r;
+  near = meanOf(near_source);
 #if defined HAS_FAR && defined HAS_FAR_SOURCE
-    // Coarse levels serve large discs. A surface with smaller ones beside those would mix with them, so it counts less.
-    vec4 c = textureLod(far_source, at, 0.0);
-    float weight = discs.g / max(c.a, 1e-4) + 1e-3;
-    far_sum += weight * c;
-    sum.gb += weight * vec2(discs.g, 1.0);
+  far = meanOf(far_source);
+#elif defined HAS_FAR
+  far = vec4(0.0);
 #endif
-  }
-#ifdef HAS_FAR
-  far = far_sum / max(sum.b, 1e-9);
-#endif
-  disc = vec2(sum.r, sum.g / max(sum.b, 1e-9));
+  disc = meanOf(disc_source).rg;
 }

@@ -90,6 +90,7 @@ void main() {
     float seen = beside / all.places, hidden = rest * seen / max(seen + min(all.spread.a, rest), 1e-6);
     float own_share = rest - hidden;
     vec4 shown = all.spread * (own_share / max(all.spread.a, 1e-6)) + all.behind * (hidden / max(beside, 1e-6));
-    result += fieldShare(float(SCALE) * own_radius) * shown;
+    // Beside something nearer all of it: pixels of that have a part of this texel, and nothing else to show there.
+    result += max(fieldShare(float(SCALE) * own_radius), min(4.0 * result.a, 1.0)) * shown;
   }
 }

@@ -5,4 +5,8 @@ uniform sampler2D blurred;
 out vec4 result;
 #include "coc.glsl"
 
-void main() { result = textureLod(blurred, gl_FragCoord.xy / float(SCALE) / vec2(textureSize(blurred, 0)), 0.0); }
+void main() {
+  result = textureLod(blurred, gl_FragCoord.xy / float(SCALE) / vec2(textureSize(blurred, 0)), 0.0);
+  // What is covered except for rounding is covered: a bright light there would become a spot.
+  result *= result.a > 0.995 ? 1.0 / result.a : 1.0;
+}

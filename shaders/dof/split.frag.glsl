@@ -42,7 +42,7 @@ void main() {
     if (radii[i] >= kSmall) end = min(end, endOfSurface(radii[i]));
   }
   vec4 near_mean = vec4(0.0);
-  float near_weight = 0.0, near_count = 0.0, far_disc = 0.0, small = 0.0;
+  float near_count = 0.0, far_disc = 0.0, small = 0.0;
   far = vec4(0.0);
   for (int i = 0; i < pixels; ++i) {
     vec2 at = middle + (vec2(i & 1, i >> 1) - 0.5) * texel * float(SCALE - 1);
@@ -50,16 +50,14 @@ void main() {
     vec4 c = vec4(finite(textureLod(color, at, 0.0).rgb), abs(radius) / float(SCALE));
     bool nearer = radius < -kSmall;
     small = max(small, abs(radius) < kLarge ? abs(radius) : 0.0);
-    float w = float(nearer);
-    near_mean += c * w;
-    near_weight += w;
+    near_mean += c * float(nearer);
     near_count += float(nearer);
-    w = nearer || radius > end ? 0.0 : part * (radius > kSmall ? 1.0 : 0.5 * kLeastShare);
+    float w = nearer || radius > end ? 0.0 : part * (radius > kSmall ? 1.0 : 0.5 * kLeastShare);
     far += vec4(c.rgb, 1.0) * w;
     far_disc += c.a * w;
   }
-  float share = near_weight > 0.0 ? part * near_count : 0.0;
-  near_mean /= max(near_weight, 1e-6);
+  float share = part * near_count;
+  near_mean /= max(near_count, 1.0);
   near = vec4(near_mean.rgb, 1.0) * share;
   disc = vec2(near_mean.a * share, far_disc);
   // A texel that is in part of the near field and else in focus has nothing for far_bokeh to blur, but shows what is behind.

@@ -6,7 +6,6 @@
 // params  infinity, focus   as in split
 //         tile, blades, grid   see highlights/parameters.glsl
 #include "dof/coc.glsl"
-#include "dof/far_field.glsl"
 #include "parameters.glsl"
 
 uniform sampler2D depth, covering;
@@ -56,7 +55,7 @@ void main() {
   float own = cocRadius(texelFetch(depth, pixel, 0).r, infinity, focus, 1e4);
   // The share of the far field that the near field does not cover.
   float open = 1.0 - min(textureLod(covering, gl_FragCoord.xy / float(SCALE) / vec2(textureSize(covering, 0)), 0.0).a, 1.0);
-  open *= own < 0.0 ? nearShown(own) : 1.0;
+  open *= own < 0.0 ? fieldShare(own) : 1.0;
   vec3 light = vec3(0.0), drawn = vec3(0.0);
   for (int i = 0; i < 9; ++i) {
     ivec2 there = at + ivec2(i % 3, i / 3) - 1;

@@ -4,7 +4,7 @@
 //         depth    reversed-Z; the sky, 0, is infinitely far
 //         tiles, work   from far_tiles
 // write   red_green, blue_alpha   premultiplied, in tiles that small discs reach; alpha: what they hide of the picture with the large discs
-//         of the far field
+//         of the far field; all of it before the focus, see over.frag.glsl
 // params  infinity, focus   as in split
 //         blades   of the aperture, for POLYGON
 // defines FAR_TILE  texels of the fields along a tile's side
@@ -24,6 +24,9 @@ layout(std140) uniform Parameters {
 };
 
 float roundness;
+
+// Discs are gathered from half a pixel on.
+float startOf(float radius) { return smoothstep(0.5, 1.0, abs(radius)); }
 
 float radiusAt(vec2 place) { return cocRadius(textureLod(depth, place, 0.0).r, infinity, focus, 1e4); }
 
@@ -75,9 +78,7 @@ vec4 resultOf(Four four, int i) {
   vec4 front = vec4(four.over_r[i], four.over_g[i], four.over_b[i], four.over_a[i]);
   vec4 back = vec4(four.rest_r[i], four.rest_g[i], four.rest_b[i], four.rest_a[i]);
   front /= max(front.a, 1.0);
-  float own = four.own[i];
-  float share = own < -kLarge ? 0.0 : own < 0.0 ? 1.0 : 1.0 - fieldShare(own);
-  share *= abs(own) > 0.53 ? 1.0 - front.a : 0.0;
+  float own = four.own[i], share = (1.0 - front.a) * startOf(own) * (own > 0.0 ? 1.0 - fieldShare(own) : 1.0);
   return front + back * (share / max(back.a, 1e-6));
 }
 
@@ -109,7 +110,7 @@ void main() {
       radius[i] = radiusAt(place);
       wide[i] = edgeOf(vec4(roundness * radius[i])).x;
       float within = (wide[i] - 0.5) / kEdge;
-      light[i] = (1.0 - fieldShare(radius[i])) / (3.14159265 * within * within + 0.35);
+      light[i] = startOf(radius[i]) * (1.0 - fieldShare(radius[i])) / (3.14159265 * within * within + 0.35);
     }
     add(a, row, radius, wide, light, float(y));
     add(b, row, radius, wide, light, float(y - 1));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <ranges>
 
 #include "tests/theory/lab.h"
 
@@ -343,6 +344,85 @@ TEST_CASE("focus: without dof.reach there is still a blurred picture, and GL has
   const Panels panels = panelsOf(setup);
   CHECK(darkOf(panels, true).variance > darkOf(panels, false).variance + 17);
   CHECK(darkOf(panels, true).mass == doctest::Approx(darkOf(panels, false).mass).epsilon(0.039));
+}
+
+namespace {
+
+// What a square with discs of one radius becomes on a plane with discs of another, both in pixels, negative before the focus.
+struct Meeting {
+  std::uint32_t width = 64, height = 64;
+  double square = 0, plane = 0, light = 1, around = 0.1;
+  std::string bad = "none", full_size = "false";
+};
+Picture pictureOf(const Meeting& m) {
+  const Lens lens{.focalLength = 800, .focus = 10};
+  const double widest = std::abs(discRadius(lens, INFINITY)) * m.height / kHeight;
+  const auto distanceOf = [&](double radius) { return std::to_string(lens.focus / (1 - radius / widest)); };
+  Setup setup{.graph = "tests/theory/impulse.json", .width = m.width, .height = m.height};
+  setup.sets = {{"dof", "true"},
+                {"bloom", "false"},
+                {"full_size_bokeh", m.full_size},
+                {"focal_length", std::to_string(lens.focalLength)},
+                {"aperture", std::to_string(lens.aperture)},
+                {"focus_distance", std::to_string(lens.focus)},
+                {"bad", m.bad},
+                {"plane.background", std::to_string(m.around)},
+                {"plane.value", std::to_string(m.light)},
+                {"plane.at", "[20, 17]"},
+                {"plane.side", "24"},
+                {"plane.distance", distanceOf(m.plane)},
+                {"plane.of_square", distanceOf(m.square)}};
+  Lab lab(setup);
+  lab.frame(0);
+  Picture panels = lab.read("panels"), after{.width = m.width, .height = m.height};
+  CHECK(lab.reports() == "");
+  for (std::uint32_t y = 0; y < m.height; ++y)
+    after.texels.insert(after.texels.end(), panels.at(m.width, y), panels.at(2 * m.width - 1, y) + 4);
+  return after;
+}
+
+}  // namespace
+
+TEST_CASE("focus: one color stays that color wherever discs of two sizes meet") {
+  for (const char* size : {"false", "true"})
+    for (const double square : {-12.0, -4.5, -3.5, -3.05, -2.9, 2.9, 3.05, 3.5, 4.5})
+      for (const double plane : {-6.0, -4.2, -3.9, -3.2, -2.0, 0.0, 2.0, 3.2, 3.9, 12.0}) {
+        const Picture picture =
+            pictureOf({.square = square, .plane = plane, .light = 0.1, .full_size = size});
+        const auto [least, most] =
+            std::ranges::minmax(picture.texels | std::views::filter([](float v) { return v != 1; }));
+        CAPTURE(square);
+        CAPTURE(plane);
+        CHECK(least > 0.0994);
+        CHECK(most < 0.1006);
+      }
+}
+
+TEST_CASE("focus: nothing jumps where a disc passes half a pixel, three or four") {
+  for (const double plane : {-10.0, 0.0, 10.0})
+    for (const double sign : {-1.0, 1.0})
+      for (const double at : {0.5, 3.0, 4.0}) {
+        Picture before = pictureOf({.square = sign * (at - 0.02), .plane = plane, .light = 5});
+        const Picture after = pictureOf({.square = sign * (at + 0.02), .plane = plane, .light = 5});
+        double worst = 0;
+        for (std::size_t i = 0; i < after.texels.size(); ++i)
+          worst = std::max(worst, std::abs(double(after.texels[i]) - before.texels[i]));
+        CAPTURE(plane);
+        CAPTURE(sign);
+        CAPTURE(at);
+        // Of 4.9. Measured: 0.18 where a disc behind the focus begins to count on a plane farther away, 0.39 where one begins to be in the near
+        // field behind a nearer one, else 0.04. Where discs began at half a pixel all at once: 1.2.
+        CHECK(worst < (sign < 0 && plane < 0 ? 0.42 : 0.2));
+      }
+}
+
+TEST_CASE("focus: what is no radiance does not get through, whatever its disc") {
+  for (const char* bad : {"nan", "infinite"})
+    for (const double radius : {-6.0, -3.5, -2.0, 2.0, 3.5, 6.0}) {
+      const Picture picture = pictureOf({.square = radius, .plane = 0, .bad = bad});
+      CAPTURE(radius);
+      CHECK(std::ranges::all_of(picture.texels, [](float v) { return std::isfinite(v); }));
+    }
 }
 
 TEST_CASE("by default the camera's target is in focus") {

@@ -1,4 +1,4 @@
-// A plane across the view, of one radiance but for one square of another. A test picture.
+// A plane across the view, of one radiance but for one square of another, which may lie elsewhere. A test picture.
 // read    air?        see fog/sky.glsl
 // write   radiance    scene-referred
 //         velocity    screen UV per frame
@@ -7,6 +7,7 @@
 //         value       of the square
 //         at, side    pixels: its lower left corner, and how long it is
 //         distance    of the plane along the view axis, world units; 0: the sky
+//         of_square   the square's; 0: as the plane
 //         motion      pixels per frame
 // defines BAD         one of BAD_NONE, BAD_NAN, BAD_INFINITE: what the square holds instead of `value`
 #include "common/view.glsl"
@@ -18,6 +19,7 @@ layout(std140) uniform Parameters {
   vec2 at;
   int side;
   float distance;
+  float of_square;
   vec2 motion;
 };
 out vec4 radiance;
@@ -44,6 +46,7 @@ void main() {
   velocity = motion / viewport;
 #endif
 #ifdef HAS_DEPTH
-  gl_FragDepth = distance > 0.0 ? near_plane / distance : 0.0;
+  float away = inside && of_square > 0.0 ? of_square : distance;
+  gl_FragDepth = away > 0.0 ? near_plane / away : 0.0;
 #endif
 }
