@@ -54,10 +54,10 @@ void takePlace(Search search, bool each, vec2 at, float across, float share) {
   float sharing = each ? spread.sum : 0.0;
   for (int k = 0; k <= search.outermost; ++k)
     sharing += float(max(FIRST_RING * k, 1)) * reachesRing(search, spread.radius, ringRadius(search, k));
-  share *= fieldShare(float(SCALE) * disc) * reaches(search, each, spread, across) / sharing;
+  share *= reaches(search, each, spread, across) / sharing;
   float is_over = liesOver(disc, own_radius);
   if (over) {
-    all.spread += is_over * share * c;
+    all.spread += is_over * fieldShare(float(SCALE) * disc) * share * c;
   } else {
     float is_behind = liesBehind(disc, own_radius), seen = reaches(search, each, own_disc, across);
     all.spread += (1.0 - is_over - is_behind) * share * c;

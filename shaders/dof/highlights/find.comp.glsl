@@ -30,10 +30,11 @@ const float kAlone = 0.1, kNotAlone = 0.3;
 const ivec2 kAround[8] =
     ivec2[8](ivec2(4, 0), ivec2(3, 3), ivec2(0, 4), ivec2(-3, 3), ivec2(-4, 0), ivec2(-3, -3), ivec2(0, -4), ivec2(3, -3));
 
-// Brightness of a texel of both fields: their green.
+// Brightness of a texel: its green in both fields or, where a pixel there is in neither, in the picture.
 float greenAt(ivec2 at) {
   at = clamp(at, ivec2(0), textureSize(far, 0) - 1);
-  return texelFetch(near, at, 0).g + texelFetch(far, at, 0).g;
+  float green = texelFetch(color, min(at * SCALE, textureSize(color, 0) - 1), 0).g;
+  return max(texelFetch(near, at, 0).g + texelFetch(far, at, 0).g, min(green, 65504.0));
 }
 
 // The same of four texels, in the order of textureGather: of `at`, the one to its right, and the two above these. `reached`: false where no

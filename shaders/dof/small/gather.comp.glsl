@@ -49,6 +49,7 @@ vec4 inside(vec4 edge, float across) {
 struct Four {
   vec4 own, per_gap, size;
   vec4 over_r, over_g, over_b, over_a, rest_r, rest_g, rest_b, rest_a;
+  vec4 fields;  // what the fields have of the discs in `over`
 };
 
 #define FOUR(of, i) vec4(of[i], of[i + 1], of[i + 2], of[i + 3])
@@ -56,7 +57,8 @@ struct Four {
 #define TAKE(k) { \
   float across = kEdge * sqrt(up + float((k - kReach) * (k - kReach))); \
   vec4 nearer = clamp((four.own - FOUR(radius, k)) * four.per_gap - 1.0, 0.0, 1.0); \
-  vec4 front = nearer * FOUR(light, k) * inside(FOUR(wide, k), across); \
+  vec4 covered = nearer * inside(FOUR(wide, k), across), front = covered * FOUR(light, k); \
+  four.fields += covered * FOUR(other, k); \
   vec4 back = inside(four.size, across); \
   back -= back * nearer; \
   vec4 c = FOUR_OF(row, k, r); four.over_r += front * c; four.rest_r += back * c; \
@@ -64,19 +66,20 @@ struct Four {
   c = FOUR_OF(row, k, b); four.over_b += front * c; four.rest_b += back * c; \
   four.over_a += front; four.rest_a += back; }
 
-void add(inout Four four, vec3 row[kWide + 3], float radius[kWide + 3], float wide[kWide + 3], float light[kWide + 3], float y) {
+void add(inout Four four, vec3 row[kWide + 3], float radius[kWide + 3], float wide[kWide + 3], float light[kWide + 3], float other[kWide + 3], float y) {
   float up = y * y;
   TAKE(0) TAKE(1) TAKE(2) TAKE(3) TAKE(4) TAKE(5) TAKE(6)
 }
 
 Four start(vec4 own) {
   const vec4 none = vec4(0.0);
-  return Four(own, 1.0 / gapAt(own), edgeOf(roundness * abs(own)), none, none, none, none, none, none, none, none);
+  return Four(own, 1.0 / gapAt(own), edgeOf(roundness * abs(own)), none, none, none, none, none, none, none, none, none);
 }
 
 vec4 resultOf(Four four, int i) {
   vec4 front = vec4(four.over_r[i], four.over_g[i], four.over_b[i], four.over_a[i]);
   vec4 back = vec4(four.rest_r[i], four.rest_g[i], four.rest_b[i], four.rest_a[i]);
+  front /= max(1.0 - four.fields[i], 0.1);  // both parts are laid over each other, and add up
   front /= max(front.a, 1.0);
   float own = four.own[i], share = (1.0 - front.a) * startOf(own) * (own > 0.0 ? 1.0 - fieldShare(own) : 1.0);
   return front + back * (share / max(back.a, 1e-6));
@@ -103,17 +106,19 @@ void main() {
   int rows = min(int(ceil(texelFetch(tiles, tile, 0).g + 0.5 / kEdge)) - 1, kReach);
   for (int y = -rows; y <= rows + 1; ++y) {
     vec3 row[kWide + 3];
-    float radius[kWide + 3], wide[kWide + 3], light[kWide + 3];
+    float radius[kWide + 3], wide[kWide + 3], light[kWide + 3], other[kWide + 3];
     for (int i = 0; i < kWide + 3; ++i) {
       vec2 place = (vec2(at + ivec2(i - kReach, y)) + 0.5) * texel;
       row[i] = finite(textureLod(color, place, 0.0).rgb);
       radius[i] = radiusAt(place);
       wide[i] = edgeOf(vec4(roundness * radius[i])).x;
       float within = (wide[i] - 0.5) / kEdge;
-      light[i] = startOf(radius[i]) * (1.0 - fieldShare(radius[i])) / (3.14159265 * within * within + 0.35);
+      float area = 3.14159265 * within * within + 0.35, in_fields = fieldShare(radius[i]);
+      light[i] = startOf(radius[i]) * (1.0 - in_fields) / area;
+      other[i] = in_fields < 1.0 ? in_fields / area : 0.0;
     }
-    add(a, row, radius, wide, light, float(y));
-    add(b, row, radius, wide, light, float(y - 1));
+    add(a, row, radius, wide, light, other, float(y));
+    add(b, row, radius, wide, light, other, float(y - 1));
   }
   store(a, at);
   store(b, at + ivec2(0, 1));
