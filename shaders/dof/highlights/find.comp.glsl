@@ -30,7 +30,7 @@ const float kAlone = 0.1, kNotAlone = 0.3;
 const ivec2 kAround[8] =
     ivec2[8](ivec2(4, 0), ivec2(3, 3), ivec2(0, 4), ivec2(-3, 3), ivec2(-4, 0), ivec2(-3, -3), ivec2(0, -4), ivec2(3, -3));
 
-// Brightness of a texel: its green in both fields or, where a pixel there is in neither, in the picture.
+// Brightness of a texel: its green in both fields, or in the picture where its first pixel is brighter: sharp ones are in no field.
 float greenAt(ivec2 at) {
   at = clamp(at, ivec2(0), textureSize(far, 0) - 1);
   float green = texelFetch(color, min(at * SCALE, textureSize(color, 0) - 1), 0).g;

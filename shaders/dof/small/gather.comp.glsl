@@ -3,6 +3,7 @@
 // read    color    radiance
 //         depth    reversed-Z; the sky, 0, is infinitely far
 //         tiles, work   from far_tiles
+//         far      the far field, `as linear`: what is seen beside a nearer surface is blurred
 // write   red_green, blue_alpha   premultiplied, in tiles that small discs reach; alpha: what they hide of the picture with the large discs
 //         of the far field; all of it before the focus, see over.frag.glsl
 // params  infinity, focus   as in split
@@ -15,7 +16,7 @@ layout(local_size_x = FAR_TILE / (SCALE == 2 ? 2 : 4), local_size_y = FAR_TILE /
 #include "common/view.glsl"
 #include "dof/small/work.glsl"
 
-uniform sampler2D color, depth, tiles;
+uniform sampler2D color, depth, tiles, far;
 layout(rg16f) uniform writeonly image2D red_green, blue_alpha;
 layout(std140) uniform Parameters {
   float infinity;
@@ -54,19 +55,21 @@ struct Four {
 
 #define FOUR(of, i) vec4(of[i], of[i + 1], of[i + 2], of[i + 3])
 #define FOUR_OF(of, i, c) vec4(of[i].c, of[i + 1].c, of[i + 2].c, of[i + 3].c)
+// Of the own surface a disc counts whose size lies a little towards the other pixel's: so all light of a curved surface is somewhere.
 #define TAKE(k) { \
   float across = kEdge * sqrt(up + float((k - kReach) * (k - kReach))); \
-  vec4 nearer = clamp((four.own - FOUR(radius, k)) * four.per_gap - 1.0, 0.0, 1.0); \
+  vec4 apart = (four.own - FOUR(radius, k)) * four.per_gap, nearer = clamp(apart - 1.0, 0.0, 1.0); \
   vec4 covered = nearer * inside(FOUR(wide, k), across), front = covered * FOUR(light, k); \
   four.fields += covered * FOUR(other, k); \
-  vec4 back = inside(four.size, across); \
+  vec4 back = inside(four.size + clamp(1.0 - abs(apart), 0.0, 0.25) * (FOUR(wide, k) - four.size), across); \
   back -= back * nearer; \
   vec4 c = FOUR_OF(row, k, r); four.over_r += front * c; four.rest_r += back * c; \
   c = FOUR_OF(row, k, g); four.over_g += front * c; four.rest_g += back * c; \
   c = FOUR_OF(row, k, b); four.over_b += front * c; four.rest_b += back * c; \
   four.over_a += front; four.rest_a += back; }
 
-void add(inout Four four, vec3 row[kWide + 3], float radius[kWide + 3], float wide[kWide + 3], float light[kWide + 3], float other[kWide + 3], float y) {
+void add(inout Four four, vec3 row[kWide + 3], float radius[kWide + 3], float wide[kWide + 3], float light[kWide + 3],
+         float other[kWide + 3], float y) {
   float up = y * y;
   TAKE(0) TAKE(1) TAKE(2) TAKE(3) TAKE(4) TAKE(5) TAKE(6)
 }
@@ -95,7 +98,7 @@ void store(Four four, ivec2 at) {
 
 void main() {
   ivec2 tile = tileOfGroup(), at = (tile * ivec2(gl_WorkGroupSize.xy) + ivec2(gl_LocalInvocationID.xy)) * ivec2(4, 2);
-  vec2 texel = 1.0 / vec2(textureSize(color, 0));
+  vec2 texel = 1.0 / vec2(textureSize(color, 0)), to_far = vec2(textureSize(color, 0)) / vec2(textureSize(far, 0) * SCALE);
   roundness = roundnessOf(blades);
   vec4 low, high;
   for (int i = 0; i < 4; ++i) {
@@ -109,11 +112,12 @@ void main() {
     float radius[kWide + 3], wide[kWide + 3], light[kWide + 3], other[kWide + 3];
     for (int i = 0; i < kWide + 3; ++i) {
       vec2 place = (vec2(at + ivec2(i - kReach, y)) + 0.5) * texel;
-      row[i] = finite(textureLod(color, place, 0.0).rgb);
+      vec4 blurred = textureLod(far, place * to_far, 0.0);
       radius[i] = radiusAt(place);
+      row[i] = blurred.a > 0.0 && radius[i] >= kLarge ? blurred.rgb / blurred.a : finite(textureLod(color, place, 0.0).rgb);
       wide[i] = edgeOf(vec4(roundness * radius[i])).x;
       float within = (wide[i] - 0.5) / kEdge;
-      float area = 3.14159265 * within * within + 0.35, in_fields = fieldShare(radius[i]);
+      float area = 3.14159265 * within * within + 0.45, in_fields = fieldShare(radius[i]);
       light[i] = startOf(radius[i]) * (1.0 - in_fields) / area;
       other[i] = in_fields < 1.0 ? in_fields / area : 0.0;
     }
