@@ -35,7 +35,7 @@ const int kReach = 3;  // pixels to either side that a disc may cover
 const int kWide = 2 * kReach + 1;
 
 // A disc ends over 1 / kEdge pixels, which a smooth step makes as even in all directions as areas of pixels would, and its light exact to
-// one percent. This adds to its variance. Returns kEdge times the radius.
+// two percent. This adds to its variance. Returns kEdge times the radius.
 const float kEdge = 0.6;
 vec4 edgeOf(vec4 radius) {
   vec4 within = sqrt(max(radius * radius - 0.3, vec4(0.08)));
