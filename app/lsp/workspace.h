@@ -11,6 +11,7 @@
 #include "engine/glsl/source.h"
 #include "engine/graph/expand/expand.h"
 #include "engine/graph/plan.h"
+#include "engine/graph/read/read.h"
 #include "engine/graph/registry.h"
 
 namespace weft::app::lsp {
