@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/assets/images/image.h"
@@ -151,6 +152,27 @@ struct MeshData {
   std::vector<MorphTarget> targets;  // of meshes whose weights move, see Mesh::firstTarget
   std::vector<std::uint32_t> indices;
 };
+
+// Adds what `more` has. What was empty and is taken is moved, so that large meshes are held once.
+inline void moveInto(MeshData& all, MeshData&& more) {
+  const std::size_t before = all.vertices.size(), count = before + more.vertices.size();
+  const auto add = [](auto& to, auto from) {
+    if (to.empty()) std::swap(to, from);
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  const auto addIfAny = [&](auto& to, auto& from, const auto& otherwise) {
+    if (to.empty() && from.empty()) return;
+    to.resize(before, otherwise);
+    add(to, std::move(from));
+    to.resize(count, otherwise);
+  };
+  add(all.vertices, std::move(more.vertices));
+  addIfAny(all.skin, more.skin, SkinVertex{});
+  addIfAny(all.colors, more.colors, glm::vec4(1));
+  addIfAny(all.secondUvs, more.secondUvs, glm::vec2(0));
+  add(all.targets, std::move(more.targets));
+  add(all.indices, std::move(more.indices));
+}
 
 // A range of MeshData.
 struct Mesh {

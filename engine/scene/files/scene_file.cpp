@@ -467,8 +467,6 @@ class Reader {
     if (!model) return nullptr;
     loaded = std::make_unique<Loaded>(Loaded{std::move(*model), {}});
     loaded->rows = addModelTables(scene_, *data_, loaded->model);
-    // They are in the scene's arrays now.
-    static_cast<MeshData&>(loaded->model) = {};
     return loaded.get();
   }
 

@@ -2,17 +2,13 @@
 
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace weft::scene {
 
 namespace {
 
 using assets::kNoRow;
-
-template <class T>
-void append(std::vector<T>& out, const std::vector<T>& in) {
-  out.insert(out.end(), in.begin(), in.end());
-}
 
 std::uint32_t addTexture(Scene& scene, const Texture& texture) {
   const std::span<const Texture> known = scene.textures.rows();
@@ -43,7 +39,7 @@ Lamp toLamp(const Scene& scene, const assets::ModelLight& from, NodeId node, boo
 
 }  // namespace
 
-ModelRows addModelTables(Scene& scene, MeshData& data, const assets::Model& model) {
+ModelRows addModelTables(Scene& scene, MeshData& data, assets::Model& model) {
   ModelRows rows;
   std::vector<std::uint32_t> textures;
   for (const Texture& texture : model.textures) textures.push_back(addTexture(scene, texture));
@@ -52,26 +48,13 @@ ModelRows addModelTables(Scene& scene, MeshData& data, const assets::Model& mode
       if (*map != kNoRow) *map = textures[*map];
     rows.materials.push_back(scene.materials.add(std::move(material)));
   }
-  const auto firstVertex = static_cast<std::uint32_t>(data.vertices.size());
-  const auto firstIndex = static_cast<std::uint32_t>(data.indices.size());
-  append(data.vertices, model.vertices);
-  const auto appendIfAny = [&](auto& all, const auto& more, const auto& otherwise) {
-    if (more.empty() && all.empty()) return;
-    all.resize(firstVertex, otherwise);
-    append(all, more);
-    all.resize(data.vertices.size(), otherwise);
-  };
-  appendIfAny(data.skin, model.skin, assets::SkinVertex{});
-  appendIfAny(data.colors, model.colors, glm::vec4(1));
-  appendIfAny(data.secondUvs, model.secondUvs, glm::vec2(0));
-  append(data.indices, model.indices);
-  for (Mesh mesh : model.meshes) {
-    mesh.firstVertex += firstVertex;
-    mesh.firstIndex += firstIndex;
+  for (Mesh& mesh : std::exchange(model.meshes, {})) {
+    mesh.firstVertex += static_cast<std::uint32_t>(data.vertices.size());
+    mesh.firstIndex += static_cast<std::uint32_t>(data.indices.size());
     mesh.firstTarget += static_cast<std::uint32_t>(data.targets.size());
     rows.meshes.push_back(scene.meshes.add(std::move(mesh)));
   }
-  append(data.targets, model.targets);
+  assets::moveInto(data, std::move(model));
   return rows;
 }
 
@@ -104,7 +87,7 @@ std::vector<NodeId> addModelCopy(Scene& scene, const ModelRows& rows, const asse
     const bool idle = node.local == Transform{} && node.inner == glm::mat3(1) && !from.animated;
     node.firstWeight = from.weights.empty() ? scene.nodes.rows()[node.parent.index].firstWeight
                                             : static_cast<std::uint32_t>(scene.weights.size());
-    append(scene.weights, from.weights);
+    scene.weights.insert(scene.weights.end(), from.weights.begin(), from.weights.end());
     nodes.push_back(idle ? node.parent : scene.nodes.add(std::move(node)));
   }
   std::vector<SkinId> skins;

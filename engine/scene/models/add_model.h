@@ -18,9 +18,9 @@ struct ModelRows {
   std::vector<MeshId> meshes;
 };
 
-// `data` is what Scene::meshData becomes when all models are in; vertices and indices are appended to it. Textures whose
+// `data` is what Scene::meshData becomes when all models are in; those of the model are moved to it. Textures whose
 // content the scene has already are not added again.
-ModelRows addModelTables(Scene& scene, MeshData& data, const assets::Model& model);
+ModelRows addModelTables(Scene& scene, MeshData& data, assets::Model& model);
 
 // A label for each instance of the model, with `name`, the names of its node and of those above, and `tags`.
 std::vector<LabelId> addLabels(Scene& scene, const assets::Model& model, const std::string& name,

@@ -101,6 +101,9 @@ def large(weft, folder, report):
     for name in ("large.json", "large.cube", "shaders/large.frag.glsl", "shaders/large.glsl"):
         write(folder / name, "{}")
         os.truncate(folder / name, 3 << 30)
+    # 8 Mi vertices of 0.4 kB: an accessor without a buffer view is zeros.
+    write(folder / "large.gltf", {"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+                                  "accessors": [{"componentType": 5126, "count": 8388600, "type": "VEC3"}]})
     write(folder / "shaders/good.frag.glsl", SHADER)
     write(folder / "shaders/includes.frag.glsl", '#include "large.glsl"\n' + SHADER)
     write(folder / "shaders/table.frag.glsl", TABLE_SHADER)
@@ -114,7 +117,7 @@ def large(weft, folder, report):
     cases = [("large.json", [], "W201"), ("include.json", [], "W201"), ("extends.json", [], "W201"), ("shader.json", [], "W203"),
              ("shader_include.json", [], "W103"), ("table.json", [], "W201"), ("good.json", ["--preset", "large.json"], "W201"),
              ("good.json", ["--scene", "large.json"], "W201"), ("good.json", ["--scene", "library.json"], "W201"),
-             ("good.json", ["--materials", "large.json"], "W201")]
+             ("good.json", ["--materials", "large.json"], "W201"), ("good.json", ["--scene", "large.gltf"], "W164")]
     for name, arguments, code in cases:
         count_run()
         with open(folder / "said.txt", "w+") as said:

@@ -303,11 +303,11 @@ FBXHeaderExtension:  {
 }
 Objects:  {
 	Geometry: 1, "Geometry::", "Mesh" {
-		Vertices: *9 {
-			a: 0,0,0,1,0,0,0,1,0
+		Vertices: *12 {
+			a: 0,0,0,1,0,0,0,1,0,-1,0,0
 		}
-		PolygonVertexIndex: *3 {
-			a: 0,1,-3
+		PolygonVertexIndex: *4 {
+			a: 0,1,2,-4
 		}
 	}
 	Geometry: 2, "Geometry::smile", "Shape" {
@@ -345,7 +345,7 @@ Connections:  {
 }
 )"),
                                1);
-  REQUIRE(model.vertices.size() == 3);
+  REQUIRE(model.vertices.size() == 6);
   for (const Vertex& vertex : model.vertices) CHECK(vertex.position.y <= 1);
   text::Diagnostics diagnostics;
   REQUIRE(loadModel(folder.at("m.fbx"), diagnostics));

@@ -298,6 +298,25 @@ TEST_CASE("a texture that is missing or damaged is a warning, and a checkerboard
   CHECK(model->materials[0].occlusionMap == kNoRow);
 }
 
+// An accessor without a buffer view is zeros, of as many bytes as it says.
+TEST_CASE("positions that no corner uses count, in each mesh that has them") {
+  const auto codeOf = [](std::uint32_t positions, std::size_t meshes) {
+    return failureWith([&](GltfMaker& m) {
+             m.document["accessors"].push_back(
+                 {{"componentType", 5126}, {"count", positions}, {"type", "VEC3"}});
+             json primitive = {{"attributes", {{"POSITION", m.document["accessors"].size() - 1}}},
+                               {"indices", m.shorts({0, 1, 2})}};
+             m.document["meshes"][0]["primitives"] = json::array();
+             for (std::size_t i = 0; i < meshes; ++i)
+               m.document["meshes"][0]["primitives"].push_back(primitive);
+           })
+        .code;
+  };
+  CHECK(codeOf(25'000'000, 1) == Code::limitExceeded);
+  CHECK(codeOf(100'000, 85) == Code::limitExceeded);
+  CHECK(codeOf(100'000, 1) == Code::unreadableModel);  // nothing to draw
+}
+
 TEST_CASE("a picture of gigabytes is refused by its header") {
   const TemporaryFolder folder;
   std::string png("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x40\0\0\0\x20\0\x08\x06\0\0\0", 29);  // 16384 x 8192

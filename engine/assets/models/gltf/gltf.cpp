@@ -241,27 +241,29 @@ class GltfReader {
     if (which) indices = document_.accessor(*which, "SCALAR", false);
     const std::uint64_t corners = std::uint64_t{indices ? indices->count : count_} * (mode == 4 ? 1 : 3);
     GltfDocument::refuseUnless(
-        builder_.hasRoom(attributes.find("NORMAL") ? count_ : corners, corners, value.place, diagnostics_));
+        builder_.hasRoom(std::max<std::uint64_t>(count_, attributes.find("NORMAL") ? 0 : corners), corners,
+                         value.place, diagnostics_));
     RawMesh mesh{.name = name, .join = made_};
-    mesh.vertices.resize(count_);
-    take(attribute<glm::vec3>(attributes, "POSITION", kFarthest), mesh, &RawVertex::position);
+    mesh.vertices.resize(count_, {.tangent = glm::vec4(0)});
+    take(attribute<glm::vec3>(attributes, "POSITION", kFarthest), mesh, &Vertex::position);
     // Normals and tangents that are no numbers are made anew.
-    mesh.normals = take(attribute<glm::vec3>(attributes, "NORMAL", {}), mesh, &RawVertex::normal);
-    take(attribute<glm::vec4>(attributes, "TANGENT", {}), mesh, &RawVertex::tangent);
+    mesh.normals = take(attribute<glm::vec3>(attributes, "NORMAL", {}), mesh, &Vertex::normal);
+    take(attribute<glm::vec4>(attributes, "TANGENT", {}), mesh, &Vertex::tangent);
     const GltfUvs& uvs = uvs_[part.material];
     Material& surface = model_.materials[part.material];
     const bool mapped = std::ranges::any_of(surface.maps(), [](auto* map) { return *map != kNoRow; });
     for (std::size_t i = 0; i < uvs.size(); ++i) {
-      const bool found = readUvs(attributes, uvs[i], mesh, i == 0 ? &RawVertex::uv : &RawVertex::secondUv);
-      if (i == 1) mesh.secondUvs = found;
-      if (!found && mapped && mapless_.insert(part.material).second)
+      std::vector<glm::vec2> found = readUvs(attributes, uvs[i]);
+      if (found.empty() && mapped && mapless_.insert(part.material).second)
         document_.leaveOut(say::mapsWithoutUv, value, surface.name, name,
                            made_ ? "uv" : fmt::format("TEXCOORD_{}", uvs[i].set));
+      if (i == 0) take(found, mesh, &Vertex::uv);
+      if (i == 1) mesh.secondUvs = std::move(found);
     }
-    if (surface.samplers[1] & atSecondUv) mesh.tangentUv = &RawVertex::secondUv;
+    mesh.tangentsAtSecondUv = (surface.samplers[1] & atSecondUv) != 0;
+    if (skinned) part.joints = readWeights(attributes, mesh);
     readColors(attributes, mesh);
     morph(value, weights, moves, corners, mesh);
-    if (skinned) part.joints = readWeights(attributes, mesh);
     readIndices(value, indices, mode, mesh);
     part.mesh = builder_.add(std::move(mesh));
     return part;
@@ -293,12 +295,12 @@ class GltfReader {
   }
 
   template <class Vector>
-  static bool take(const std::vector<Vector>& values, RawMesh& mesh, Vector RawVertex::*member) {
+  static bool take(const std::vector<Vector>& values, RawMesh& mesh, Vector Vertex::*member) {
     for (std::size_t v = 0; v < values.size(); ++v) mesh.vertices[v].*member = values[v];
     return !values.empty();
   }
 
-  bool readUvs(const JsonValue& attributes, const GltfUv& uv, RawMesh& mesh, glm::vec2 RawVertex::*member) {
+  std::vector<glm::vec2> readUvs(const JsonValue& attributes, const GltfUv& uv) {
     std::vector<glm::vec2> uvs = attribute<glm::vec2>(attributes, fmt::format("TEXCOORD_{}", uv.set), 1e6f);
     // Counter-clockwise as uv are drawn, with v downwards: github.com/KhronosGroup/glTF/issues/1563.
     const float c = std::cos(uv.rotation), s = std::sin(uv.rotation);
@@ -307,7 +309,7 @@ class GltfReader {
       const float u = each[0] * uv.scale[0], v = each[1] * uv.scale[1];
       each = {c * u + s * v + uv.offset[0], -s * u + c * v + uv.offset[1]};
     }
-    return take(uvs, mesh, member);
+    return uvs;
   }
 
   // glTF 2.0, 3.7.2.1: linear, clamped to 0..1; floats, or unsigned bytes and shorts that are normalized.
@@ -320,14 +322,12 @@ class GltfReader {
     if (accessor.type != 5126 && !(accessor.normalized && (accessor.type == 5121 || accessor.type == 5123)))
       return document_.leaveOut(say::meshColorsLeftOut, *where, mesh.name, accessor.type,
                                 accessor.normalized ? ", normalized" : "");
-    std::vector<glm::vec4> colors;
     if (opaque)
       for (const glm::vec3& color : attribute<glm::vec3>(attributes, "COLOR_0", 1e9f))
-        colors.emplace_back(color, 1);
+        mesh.colors.emplace_back(color, 1);
     else
-      colors = attribute<glm::vec4>(attributes, "COLOR_0", 1e9f);
-    for (glm::vec4& color : colors) color = glm::clamp(color, 0.0f, 1.0f);
-    mesh.colors = take(colors, mesh, &RawVertex::color);
+      mesh.colors = attribute<glm::vec4>(attributes, "COLOR_0", 1e9f);
+    for (glm::vec4& color : mesh.colors) color = glm::clamp(color, 0.0f, 1.0f);
   }
 
   // The mesh as its targets move it, each by its weight; where weights are to move, it keeps its targets. glTF 2.0, 3.7.2.2.
@@ -339,7 +339,7 @@ class GltfReader {
       // The same accessor may serve any number of targets; each is held here, in the model and in the scene.
       GltfDocument::refuseUnless(files_.count(
           (count_ + 2 * (mesh.normals ? count_ : corners)) * sizeof(MorphTarget), targets[t].place));
-      std::vector<MorphTarget>& target = mesh.targets.emplace_back(count_);
+      std::vector<MorphTarget>& target = mesh.morphs.emplace_back(count_);
       const auto read = [&](const char* name, glm::vec3 MorphTarget::*member) {
         const std::vector<glm::vec3> values = attribute<glm::vec3>(targets[t], name, kFarthest);
         for (std::size_t v = 0; v < values.size(); ++v) target[v].*member = values[v];
@@ -353,9 +353,9 @@ class GltfReader {
         mesh.vertices[v].normal += weights[t] * target[v].normal;
         mesh.vertices[v].tangent += glm::vec4(weights[t] * target[v].tangent, 0);
       }
-      mesh.targets.pop_back();
+      mesh.morphs.pop_back();
     }
-    for (const RawVertex& v : mesh.vertices)
+    for (const Vertex& v : mesh.vertices)
       if (!glm::all(glm::lessThanEqual(glm::abs(v.position), glm::vec3(kFarthest))))
         document_.fail(say::morphedTooFar, *primitive.find("targets"), mesh.name, kFarthest);
   }
@@ -363,28 +363,29 @@ class GltfReader {
   // How many joints its vertices name, at least.
   std::uint64_t readWeights(const JsonValue& attributes, RawMesh& mesh) {
     std::uint64_t named = 0;
-    std::vector<std::array<std::uint32_t, 8>> joints(count_);
-    std::vector<std::array<float, 8>> weights(count_);
+    std::array<std::vector<std::uint32_t>, 2> joints;
+    std::array<std::vector<glm::vec4>, 2> weights;
     for (std::size_t set = 0; set < 2; ++set) {
       const std::string name = fmt::format("JOINTS_{}", set);
       const JsonValue* which = attributes.find(name);
-      const std::vector<glm::vec4> given =
-          attribute<glm::vec4>(attributes, fmt::format("WEIGHTS_{}", set), 1e6f);
-      if (!which || given.empty()) break;
-      mesh.skinned = true;
-      const std::vector<std::uint32_t> rows =
-          document_.read<std::uint32_t>(vertexAccessor(*which, name, "VEC4", false));
-      for (std::size_t v = 0; v < count_; ++v)
-        for (std::size_t i = 0; i < 4; ++i) {
-          const float weight = given[v][static_cast<int>(i)];
-          joints[v][4 * set + i] = rows[4 * v + i];
-          weights[v][4 * set + i] = std::max(0.0f, weight);
-          // A weight of 0 asks for no joint; a vertex without any weight follows its first.
-          if (weight > 0 || (set == 0 && i == 0)) named = std::max(named, std::uint64_t{rows[4 * v + i]} + 1);
-        }
+      weights[set] = attribute<glm::vec4>(attributes, fmt::format("WEIGHTS_{}", set), 1e6f);
+      if (!which || weights[set].empty()) break;
+      joints[set] = document_.read<std::uint32_t>(vertexAccessor(*which, name, "VEC4", false));
+      // A weight of 0 asks for no joint; a vertex without any weight follows its first.
+      for (std::size_t i = 0; i < joints[set].size(); ++i)
+        if (weights[set][i / 4][static_cast<int>(i % 4)] > 0 || (set == 0 && i % 4 == 0))
+          named = std::max(named, std::uint64_t{joints[set][i]} + 1);
     }
-    for (std::size_t v = 0; mesh.skinned && v < count_; ++v)
-      mesh.vertices[v].skin = heaviest(joints[v], weights[v]);
+    mesh.skin.reserve(joints[0].size() / 4);
+    for (std::size_t v = 0; v < joints[0].size() / 4; ++v) {
+      std::array<std::uint32_t, 8> from{};
+      std::array<float, 8> by{};
+      for (std::size_t i = 0; i < 8 && !joints[i / 4].empty(); ++i) {
+        from[i] = joints[i / 4][4 * v + i % 4];
+        by[i] = std::max(0.0f, weights[i / 4][v][static_cast<int>(i % 4)]);
+      }
+      mesh.skin.push_back(heaviest(from, by));
+    }
     return named;
   }
 

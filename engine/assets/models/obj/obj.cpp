@@ -554,7 +554,7 @@ class ObjReader {
   }
 
   void finishPart(Part& part) {
-    RawMesh mesh{.name = model_.nodes[part.node].name, .normals = true, .colors = colored_ && !colorless_};
+    RawMesh mesh{.name = model_.nodes[part.node].name, .normals = true};
     const glm::vec4 move = materials_.moveOf(part.material);
     if (std::ranges::any_of(part.corners, [](const Corner& each) { return each[1] == kNoRow; }))
       materials_.reportUvs(part.material, mesh.name);
@@ -564,9 +564,9 @@ class ObjReader {
       const auto row = static_cast<std::uint32_t>(mesh.vertices.size());
       mesh.indices.push_back(known.try_emplace(corner, row).first->second);
       if (mesh.indices.back() != row) continue;
-      RawVertex vertex{.position = positions_[position]};
+      Vertex vertex{.position = positions_[position], .tangent = glm::vec4(0)};
       if (uv != kNoRow) vertex.uv = {uvs_[uv].x * move.x + move.z, 1 - (1 - uvs_[uv].y) * move.y - move.w};
-      if (mesh.colors) vertex.color = glm::vec4(colors_[position], 1);
+      if (colored_ && !colorless_) mesh.colors.emplace_back(colors_[position], 1);
       vertex.normal = normal < kMade ? normals_[normal] : glm::vec3(glm::normalize(made_[normal - kMade]));
       mesh.vertices.push_back(vertex);
     }

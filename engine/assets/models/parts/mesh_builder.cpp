@@ -31,16 +31,21 @@ Vec perpendicular(Vec n) {
   return {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
 }
 
+// Calls `act` for each array that has a row for each vertex.
+void forColumns(RawMesh& mesh, const auto& act) {
+  const auto actUnlessEmpty = [&](auto&... rows) { ((rows.empty() ? void() : act(rows)), ...); };
+  actUnlessEmpty(mesh.vertices, mesh.skin, mesh.colors, mesh.secondUvs);
+  for (std::vector<MorphTarget>& morph : mesh.morphs) actUnlessEmpty(morph);
+}
+
 // glTF 2.0, 3.7.2.1: flat normals where a file has none. A vertex per corner, because corners may not share. A target adds
 // what takes them to those of the triangles that it has moved.
 void makeNormals(RawMesh& mesh) {
-  const auto takeApart = [&](auto& rows) {
+  forColumns(mesh, [&](auto& rows) {
     const auto vertices = std::exchange(rows, {});
     rows.reserve(mesh.indices.size());
     for (const std::uint32_t index : mesh.indices) rows.push_back(vertices[index]);
-  };
-  takeApart(mesh.vertices);
-  for (std::vector<MorphTarget>& target : mesh.targets) takeApart(target);
+  });
   std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);
   for (std::size_t i = 0; i + 2 < mesh.vertices.size(); i += 3) {
     const auto normalOf = [&](const MorphTarget& a, const MorphTarget& b, const MorphTarget& c) {
@@ -53,7 +58,7 @@ void makeNormals(RawMesh& mesh) {
       mesh.vertices[c].normal = glm::vec3(unit(n, {0, 0, 1}));
       mesh.vertices[c].tangent = glm::vec4(0);
     }
-    for (std::vector<MorphTarget>& target : mesh.targets) {
+    for (std::vector<MorphTarget>& target : mesh.morphs) {
       const Vec moved = normalOf(target[i], target[i + 1], target[i + 2]);
       const double length = std::max({glm::length(n), 1e-3 * glm::length(moved), 1e-30});
       for (std::size_t c = i; c < i + 3; ++c)
@@ -69,10 +74,14 @@ struct TriangleFrame {
 
 // Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", 2001; v upwards, as normal maps have green.
 TriangleFrame frameOf(const RawMesh& mesh, std::size_t corner) {
-  const RawVertex &a = mesh.vertices[mesh.indices[corner]], &b = mesh.vertices[mesh.indices[corner + 1]],
-                  &c = mesh.vertices[mesh.indices[corner + 2]];
+  const std::uint32_t* const rows = &mesh.indices[corner];
+  const Vertex &a = mesh.vertices[rows[0]], &b = mesh.vertices[rows[1]], &c = mesh.vertices[rows[2]];
+  const auto uv = [&](std::size_t i) {
+    if (!mesh.tangentsAtSecondUv) return mesh.vertices[rows[i]].uv;
+    return mesh.secondUvs.empty() ? glm::vec2(0) : mesh.secondUvs[rows[i]];
+  };
   const Vec e1 = Vec(b.position) - Vec(a.position), e2 = Vec(c.position) - Vec(a.position);
-  const glm::vec2 ab = b.*mesh.tangentUv - a.*mesh.tangentUv, ac = c.*mesh.tangentUv - a.*mesh.tangentUv;
+  const glm::vec2 ab = uv(1) - uv(0), ac = uv(2) - uv(0);
   const double u1 = ab.x, v1 = -ab.y, u2 = ac.x, v2 = -ac.y;
   const double area = u1 * v2 - u2 * v1;
   if (area == 0 || !std::isfinite(area)) return {};
@@ -92,8 +101,7 @@ void makeTangents(RawMesh& mesh) {
       if (signs[vertex] == -frame.sign) {
         const auto [found, isNew] = mirrored.try_emplace(vertex, static_cast<std::uint32_t>(sums.size()));
         if (isNew) {
-          mesh.vertices.push_back(mesh.vertices[vertex]);
-          for (std::vector<MorphTarget>& target : mesh.targets) target.push_back(target[vertex]);
+          forColumns(mesh, [&](auto& rows) { rows.push_back(rows[vertex]); });
           sums.emplace_back(0);
           signs.push_back(frame.sign);
         }
@@ -110,20 +118,23 @@ void makeTangents(RawMesh& mesh) {
   }
 }
 
-bool isSound(const RawVertex& v) {
+bool isSound(const Vertex& v) {
   const double length = glm::dot(Vec(v.tangent), Vec(v.tangent));
   return std::isfinite(length) && length > 1e-12 && (v.tangent[3] == 1 || v.tangent[3] == -1);
 }
 
 // Equal vertices become one, in the order in which they come first.
 void joinVertices(RawMesh& mesh) {
-  RawVertex* const all = mesh.vertices.data();
   std::vector<unsigned> to(mesh.vertices.size());
-  const std::size_t kept =
-      meshopt_generateVertexRemap(to.data(), nullptr, to.size(), all, to.size(), sizeof *all);
-  meshopt_remapVertexBuffer(all, all, to.size(), sizeof *all, to.data());
+  std::vector<meshopt_Stream> columns;
+  forColumns(mesh, [&](auto& rows) { columns.push_back({rows.data(), sizeof rows[0], sizeof rows[0]}); });
+  const std::size_t kept = meshopt_generateVertexRemapMulti(
+      to.data(), mesh.indices.data(), mesh.indices.size(), to.size(), columns.data(), columns.size());
+  forColumns(mesh, [&](auto& rows) {
+    meshopt_remapVertexBuffer(rows.data(), rows.data(), to.size(), sizeof rows[0], to.data());
+    rows.resize(kept);
+  });
   meshopt_remapIndexBuffer(mesh.indices.data(), mesh.indices.data(), mesh.indices.size(), to.data());
-  mesh.vertices.resize(kept);
 }
 
 }  // namespace
@@ -183,7 +194,7 @@ std::uint32_t MeshBuilder::add(RawMesh mesh) {
   assert(mesh.indices.size() % 3 == 0);
   if (mesh.join) joinVertices(mesh);
   if (!mesh.normals) makeNormals(mesh);
-  for (RawVertex& v : mesh.vertices)
+  for (Vertex& v : mesh.vertices)
     if (mesh.normals) v.normal = glm::vec3(unit(Vec(v.normal), {0, 0, 1}));
   if (!std::ranges::all_of(mesh.vertices, isSound)) makeTangents(mesh);
 
@@ -193,34 +204,25 @@ std::uint32_t MeshBuilder::add(RawMesh mesh) {
   row.vertexCount = static_cast<std::uint32_t>(mesh.vertices.size());
   row.firstIndex = static_cast<std::uint32_t>(model_.indices.size());
   row.indexCount = static_cast<std::uint32_t>(mesh.indices.size());
-  row.skinned = mesh.skinned;
+  row.skinned = !mesh.skin.empty();
   row.firstTarget = static_cast<std::uint32_t>(model_.targets.size());
-  row.targetBounds.resize(mesh.targets.size());
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-    for (std::size_t t = 0; t < mesh.targets.size(); ++t) {
-      model_.targets.push_back(mesh.targets[t][v]);
-      row.targetBounds[t].add(mesh.targets[t][v].position);
+  row.targetBounds.resize(mesh.morphs.size());
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const glm::vec3 position = mesh.vertices[v].position;
+    row.bounds.add(position);
+    for (std::size_t t = 0; t < mesh.morphs.size(); ++t) {
+      mesh.targets.push_back(mesh.morphs[t][v]);
+      row.targetBounds[t].add(mesh.targets.back().position);
     }
-  const bool skins = mesh.skinned || !model_.skin.empty(), colors = mesh.colors || !model_.colors.empty(),
-             uvs = mesh.secondUvs || !model_.secondUvs.empty();
-  if (skins) model_.skin.resize(row.firstVertex);
-  if (colors) model_.colors.resize(row.firstVertex, glm::vec4(1));
-  if (uvs) model_.secondUvs.resize(row.firstVertex);
-  for (const RawVertex& v : mesh.vertices) {
-    model_.vertices.push_back({v.position, v.normal, v.tangent, v.uv});
-    if (skins) model_.skin.push_back(v.skin);
-    if (colors) model_.colors.push_back(v.color);
-    if (uvs) model_.secondUvs.push_back(v.secondUv);
-    row.bounds.add(v.position);
-    row.clear = row.clear || v.color.a < 1;
     for (std::size_t i = 0; row.skinned && i < 4; ++i) {
-      const std::size_t joint = v.skin.joints[i];
-      if (!(v.skin.weights[i] > 0)) continue;
+      const std::size_t joint = mesh.skin[v].joints[i];
+      if (!(mesh.skin[v].weights[i] > 0)) continue;
       if (row.jointBounds.size() <= joint) row.jointBounds.resize(joint + 1);
-      row.jointBounds[joint].add(v.position);
+      row.jointBounds[joint].add(position);
     }
   }
-  model_.indices.insert(model_.indices.end(), mesh.indices.begin(), mesh.indices.end());
+  row.clear = std::ranges::any_of(mesh.colors, [](const glm::vec4& color) { return color.a < 1; });
+  moveInto(model_, std::move(mesh));
   model_.meshes.push_back(std::move(row));
   return static_cast<std::uint32_t>(model_.meshes.size() - 1);
 }

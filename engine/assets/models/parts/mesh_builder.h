@@ -21,24 +21,13 @@ inline glm::quat toRotation(const glm::vec4& q) {
   return {q.w, q.x, q.y, q.z};
 }
 
-struct RawVertex {
-  glm::vec3 position{0}, normal{0};
-  glm::vec4 tangent{0};          // no unit vector: to be made
-  glm::vec2 uv{0}, secondUv{0};  // (0,0) top left
-  glm::vec4 color{1};            // linear, 0 to 1
-  SkinVertex skin{};
-};
-static_assert(sizeof(RawVertex) == 96);  // no padding: vertices are compared by their bytes
-
-// One mesh before it is finished.
-struct RawMesh {
+// One mesh before it is finished. Tangents that are no unit vectors are to be made.
+struct RawMesh : MeshData {
   std::string name;
-  std::vector<RawVertex> vertices;
-  std::vector<std::vector<MorphTarget>> targets;  // each parallel to vertices
-  std::vector<std::uint32_t> indices;             // triangles; below the number of vertices
-  bool normals = false, colors = false, secondUvs = false, skinned = false;  // what the file has
-  glm::vec2 RawVertex::*tangentUv = &RawVertex::uv;                          // what tangents follow
-  bool join = false;  // equal vertices become one: of formats without indices
+  std::vector<std::vector<MorphTarget>> morphs;  // each parallel to vertices
+  bool normals = false;                          // what the file has
+  bool tangentsAtSecondUv = false;               // they follow it
+  bool join = false;                             // equal vertices become one: of formats without indices
 };
 
 // Of a Blinn–Phong material, from its albedo, its map, specular and shininess: what passes see of it that shade otherwise.
