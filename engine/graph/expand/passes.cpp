@@ -257,11 +257,13 @@ class PassWalk {
   void disable(const StanzaWalk& stanza, const SlotContext& context, DisabledPass pass) {
     const auto index = static_cast<std::uint32_t>(graph_.disabled.size());
     graph_.disabled.push_back(std::move(pass));
-    for (const SlotWork& work : slots_)
+    for (SlotWork& work : slots_) {
+      work.use.keep = stanza.desc.sideEffect;
       if (work.isConnected() && work.reads())
         wouldUse(model_, {work});
       else if (work.isConnected())
         record(work, kNone, index);
+    }
     if (!context.ranges || !stanza.sound) return;
     PassSpec ignored;
     std::vector<DeferredUniform> never;

@@ -95,6 +95,33 @@ TEST_CASE("what feeds only what is switched off is no mistake, by whatever it is
   CHECK(e.of(text::Code::culledUnread).pass == "bloom");
 }
 
+TEST_CASE("below the last reader, what only passes that are off would see") {
+  const std::string late = pass("late", R"J("modify": { "r": "hdr" })J");
+  const std::string unseen =
+      pass("off", R"J("enabled": false, "read": { "s": "hdr" }, "write": { "r": "glow" })J");
+  const std::string next =
+      pass("off", R"J("enabled": false, "read": { "b": "hdr@-1" }, "modify": { "r": "hdr" })J");
+  const Expanded a = tell({kSky, kShow, late, unseen});
+  const Expanded b = expandText(R"J({ "resources": { "ldr": { "texture": "rgba8", "size": 8 },
+      "hdr": { "texture": "rgba16f", "size": 8, "history": 1, "first": 0 } }, "passes": [ )J" +
+                                kSky + ", " + next + ", " +
+                                pass("show", R"J("read": { "s": "hdr" }, "write": { "r": "ldr" })J") + ", " +
+                                late + R"J( ], "present": "ldr" })J");
+  // What has a side effect would see it.
+  CHECK(
+      tell(
+          {kSky, kShow, late,
+           pass(
+               "off",
+               R"J("enabled": false, "side_effect": true, "read": { "s": "hdr" }, "write": { "r": "glow" })J")})
+          .text() == "");
+  for (const Expanded& e : {a, b}) {
+    REQUIRE_MESSAGE(e.diagnostics.size() == 1, e.text());
+    CHECK(e.of(text::Code::culledUnread).message ==
+          "pass 'late' is culled: 'show', which reads 'hdr', stands above it");
+  }
+}
+
 TEST_CASE("far more readers and writers than one looks at one by one") {
   std::vector<std::string> passes{kSky};
   for (int i = 0; i < 100; ++i)

@@ -41,13 +41,13 @@ void eachOffWrite(const Model& model, F&& f) {
 }
 
 // What is alive: `live` in the graph. `ever`, if everything that is disabled or whose condition is false were there, too: a disabled
-// pass is never culled then, and removes nothing. `now`, of that, without what only later frames read.
+// pass is never culled then, and removes nothing. `now`, of that, without what only later frames or culled passes read.
 struct Reach {
   Liveness live, ever, now;
   bool isLost(std::uint32_t pass) const { return live.pass[pass] == 0 && ever.pass[pass] == 0; }
   // A write that only later frames see; that, or nobody sees it.
   bool isLate(std::uint32_t use) const { return live.use[use] != 0 && now.use[use] == 0; }
-  bool isGone(std::uint32_t use) const { return live.use[use] == 0 ? ever.use[use] == 0 : now.use[use] == 0; }
+  bool isGone(std::uint32_t use) const { return now.use[use] == 0; }
 };
 
 Reach findReach(const Model& model) {
@@ -70,7 +70,9 @@ Reach findReach(const Model& model) {
   std::vector<Line> lines;
   for (std::uint32_t p = 0; p < graph.passes.size(); ++p)
     for (const std::uint32_t u : graph.usesOf(p)) lines.push_back(lineOf(model, u, u));
+  std::set<std::uint32_t> effects;  // positions of what is off and has a side effect
   const auto add = [&](Line line) {
+    if (line.use.keep) effects.insert(line.position);
     // It may test the depth, or read the storage, that it modifies; color it only draws over.
     line.use.keep = line.use.access == Access::modify && line.use.kind != Kind::color;
     if (line.use.access == Access::write) line.use.access = Access::modify;  // it removes nothing now
@@ -79,11 +81,13 @@ Reach findReach(const Model& model) {
   eachOffWrite(model, [&](const auto& what) { add({what, what.position}); });
   for (const WouldUse& would : model.would)
     if (would.use.access == Access::read) add({would, would.position});
-  // What is off now is never culled; what is read after all passes counts.
+  // What is off now is never culled but in `now`; what is read after all passes counts.
+  std::vector<std::size_t> off;
   const auto isKept = [&](std::uint32_t position) {
-    const auto at = std::ranges::lower_bound(model.positionOf, position) - model.positionOf.begin();
-    const auto p = static_cast<std::size_t>(at);
-    return p == graph.passes.size() || model.positionOf[p] != position || graph.passes[p].sideEffect;
+    const auto at = std::ranges::lower_bound(model.positionOf, position);
+    const bool on = at != model.positionOf.end() && *at == position;
+    if (!on && position != kNone && !effects.contains(position)) off.push_back(whole.passes.size());
+    return !on || graph.passes[static_cast<std::size_t>(at - model.positionOf.begin())].sideEffect;
   };
   std::ranges::stable_sort(lines, {}, &Line::position);
   std::vector<std::uint32_t> useOf;
@@ -123,10 +127,10 @@ Reach findReach(const Model& model) {
       }
   };
   if (!all) spread(reach.ever);
+  for (const std::size_t pass : off) whole.passes[pass].sideEffect = false;
   for (std::uint32_t u = 0; u < useOf.size(); ++u)
-    if (whole.uses[u].history > 0) whole.links.seen[u] = kNone;
-  for (std::size_t i = 0; i < whole.outputs.size(); ++i)
-    if (whole.outputs[i].history > 0) whole.links.outputs[i] = kNone;
+    if (whole.uses[u].history > 0 && (useOf[u] != kNone || !whole.passes[whole.links.passOf[u]].sideEffect))
+      whole.links.seen[u] = kNone;
   spread(reach.now);
   return reach;
 }
