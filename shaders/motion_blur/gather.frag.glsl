@@ -1,7 +1,8 @@
 // Motion blur over an open shutter, centered on the frame, in the tiles that gather.vert.glsl picks. Scene-referred.
-// read    still, streaks   from streaks.frag.glsl; all textures by any sampler (texels are fetched)
+// read    red_green, blue_alpha   from copy.frag.glsl; all textures by any sampler (texels are fetched)
+//         velocity, depth  screen UV per frame, reversed-Z
 //         tiles, more?     from motions
-//         second_still?, second_streaks?   the same two of the second layer; both or neither
+//         second_still?, second_velocity?, second_depth?   radiance and the others of the second layer; all or none
 // modify  result     radiance; alpha stays
 // params  shutter    degrees: 360 is open all the time between two frames
 //         samples    most moments of the shutter's time; short streaks take two per pixel of their length
@@ -12,14 +13,15 @@
 // filter for plausible motion blur", I3D 2012). Of the texels that arrive at the pixel, the nearest is visible. With a second layer, its
 // texels count too. Edges of the picture are extended. Where no texel arrives, a surface comes into view that was not drawn: it is
 // extrapolated from the nearest visible texel of the surface behind, and from the change between that and the texel as far beyond.
+#include "common/finite.glsl"
 #include "blur.glsl"
 
-uniform sampler2D still, streaks, tiles;
+uniform sampler2D red_green, blue_alpha, velocity, depth, tiles;
 #ifdef HAS_MORE
 uniform sampler2D more;
 #endif
-#ifdef HAS_SECOND_STREAKS
-uniform sampler2D second_still, second_streaks;
+#ifdef HAS_SECOND_STILL
+uniform sampler2D second_still, second_velocity, second_depth;
 #endif
 layout(std140) uniform Parameters {
   float shutter;
@@ -32,10 +34,18 @@ const float kBehind = 0.95;  // depth of what counts as behind a surface of dept
 const float kGoesOn = 0.7;   // share of a change of light that is extrapolated where a surface is hidden
 const float kMiss = 0.6;     // pixels: a texel that passes so close to the pixel's center arrives
 
+// Half the path of a texel while the shutter is open, in pixels, and its depth.
+vec3 streakAt(sampler2D velocities, sampler2D depths, ivec2 at) {
+  vec2 path = streakOf(texelFetch(velocities, at, 0).rg, vec2(textureSize(velocities, 0)), shutter, tile);
+  return vec3(path, texelFetch(depths, at, 0).r);
+}
+
+vec3 stillAt(ivec2 at) { return vec3(texelFetch(red_green, at, 0).rg, texelFetch(blue_alpha, at, 0).r); }
+
 void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(still, 0) - 1;
+  ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(velocity, 0) - 1;
   vec2 size = vec2(last + 1), here = gl_FragCoord.xy;
-  vec4 own = texelFetch(streaks, pixel, 0);
+  vec3 own = streakAt(velocity, depth, pixel);
   vec4 two = texelFetch(tiles, pixel / tile, 0), others = two.xyxy;
 #ifdef HAS_MORE
   others = texelFetch(more, pixel / tile, 0);
@@ -51,7 +61,7 @@ void main() {
   // Everything around moves alike.
   for (int i = 0; i < (alike ? n : 0); ++i) {
     float t = (float(i) + noise) / float(n) * 2.0 - 1.0;
-    sum += texelFetch(still, clamp(ivec2(floor(here - own.xy * t)), ivec2(0), last), 0).rgb;
+    sum += stillAt(clamp(ivec2(floor(here - own.xy * t)), ivec2(0), last));
   }
 
   vec2 around[4] = vec2[](longest, two.zw, others.xy, others.zw);
@@ -67,27 +77,27 @@ void main() {
     float t = (float(i) + noise) / float(n) * 2.0 - 1.0, seen = -1.0;
     ivec2 seen_at = pixel, beyond = pixel;
     float goes_on = 0.0;
-#ifdef HAS_SECOND_STREAKS
+#ifdef HAS_SECOND_STILL
     bool seen_behind = false;
 #endif
     // The pixel's own motion and that of the texel found by it, the first of the others and that of the texel found by it, the rest.
     vec2 motion = own.xy;
-    vec4 first = own;  // what the pixel's own motion leads to
+    vec3 first = own;  // what the pixel's own motion leads to
     for (int k = 0; k < tries; ++k) {
       if (k == 2) motion = around[0];
       if (k > 3) motion = around[k - 3];
       vec2 from = floor(here - motion * t), way = here - from - 0.5;
       ivec2 at = clamp(ivec2(from), ivec2(0), last);
-      vec4 found = texelFetch(streaks, at, 0);
+      vec3 found = streakAt(velocity, depth, at);
       vec2 miss = abs(found.xy * t - way);
-      bool arrives = max(miss.x, miss.y) < kMiss && found.w > seen;
-      seen = arrives ? found.w : seen;
+      bool arrives = max(miss.x, miss.y) < kMiss && found.z > seen;
+      seen = arrives ? found.z : seen;
       seen_at = arrives ? at : seen_at;
-#ifdef HAS_SECOND_STREAKS
-      vec4 behind = texelFetch(second_streaks, at, 0);
+#ifdef HAS_SECOND_STILL
+      vec3 behind = streakAt(second_velocity, second_depth, at);
       miss = abs(behind.xy * t - way);
-      bool arrives_behind = max(miss.x, miss.y) < kMiss && behind.w > seen;
-      seen = arrives_behind ? behind.w : seen;
+      bool arrives_behind = max(miss.x, miss.y) < kMiss && behind.z > seen;
+      seen = arrives_behind ? behind.z : seen;
       seen_at = arrives_behind ? at : seen_at;
       seen_behind = arrives_behind || (seen_behind && !arrives);
 #endif
@@ -98,26 +108,27 @@ void main() {
       // Either the pixel's surface leaves and the background comes into view, or the pixel is on the background, whose texel a nearer
       // surface covers. That texel would be at `hidden`; the nearer surface ends at `beside` at the latest, since it is not at the pixel
       // then.
-      bool covered = own.w < kBehind * first.w;
-      vec4 front = covered ? first : own, back = covered ? own : first;
+      bool covered = own.z < kBehind * first.z;
+      vec3 front = covered ? first : own, back = covered ? own : first;
       vec2 hidden = here - back.xy * t, beside = here - front.xy * t;
       for (int k = 4; k >= 0; --k) {
         ivec2 at = clamp(ivec2(floor(mix(hidden, beside, 0.25 * float(k)))), ivec2(0), last);
-        seen_at = kBehind * texelFetch(streaks, at, 0).w <= back.w ? at : seen_at;
+        seen_at = kBehind * texelFetch(depth, at, 0).r <= back.z ? at : seen_at;
       }
       beyond = clamp(2 * seen_at - ivec2(floor(hidden)), ivec2(0), last);
-      vec4 beside_it = texelFetch(streaks, seen_at, 0), beyond_it = texelFetch(streaks, beyond, 0);
-      bool same_depth = beside_it.w >= kBehind * beyond_it.w && beyond_it.w >= kBehind * beside_it.w;
-        bool same = same_depth && distance(beside_it.xy, beyond_it.xy) < 0.5;
+      vec3 beside_it = streakAt(velocity, depth, seen_at), beyond_it = streakAt(velocity, depth, beyond);
+      bool same_depth = beside_it.z >= kBehind * beyond_it.z && beyond_it.z >= kBehind * beside_it.z;
+      bool is_copied = texelFetch(blue_alpha, beyond, 0).g > 0.0;
+      bool same = same_depth && is_copied && distance(beside_it.xy, beyond_it.xy) < 0.5;
       goes_on = same ? kGoesOn : 0.0;
     }
-#ifdef HAS_SECOND_STREAKS
-    vec3 light = seen_behind ? texelFetch(second_still, seen_at, 0).rgb : texelFetch(still, seen_at, 0).rgb;
+#ifdef HAS_SECOND_STILL
+    vec3 light = seen_behind ? finite(texelFetch(second_still, seen_at, 0).rgb) : stillAt(seen_at);
 #else
-    vec3 light = texelFetch(still, seen_at, 0).rgb;
+    vec3 light = stillAt(seen_at);
 #endif
-    vec3 change = goes_on * (light - texelFetch(still, beyond, 0).rgb);
+    vec3 change = goes_on * (light - stillAt(beyond));
     sum += clamp(light + change, 0.5 * light, 2.0 * light);
   }
-  result = vec4(sum / float(n), texelFetch(still, pixel, 0).a);
+  result = vec4(sum / float(n), texelFetch(blue_alpha, pixel, 0).g);
 }
