@@ -295,7 +295,7 @@ Checked checkOnce(const CheckOptions& options) {
         checked.shaders.check(graph::compile(std::move(flat)), changed ? variation.text() : "", diagnostics);
       };
     checked.matrix =
-        graph::tryMatrix(*desc, runtime::makeRegistry({}, facts), settingsOf(options, true), wanted);
+        graph::tryMatrix(*desc, runtime::makeRegistry({}, facts), settingsOf(options, true, true), wanted);
   }
   // Passes whose shaders no plan has: what switches them on is the size of a picture, or several parameters at once.
   std::set<std::string> off;

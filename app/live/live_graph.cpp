@@ -447,7 +447,7 @@ bool LiveGraph::open(const std::string& file, text::Diagnostics& diagnostics) {
     scene = has("cameras") || has("grid") || has("spheres") || has("models") || has("sun") || has("lamps");
     if (has("resources") || has("present") || has("extends") || !(has("set") || has("passes"))) {
       wanted = {file, {}, {}, {}};
-      wanted.settings.software = settings_.software;
+      wanted.settings.software = settings_.software, wanted.settings.window = settings_.window;
     } else {
       wanted.presets.push_back(file);
     }

@@ -300,9 +300,10 @@ class Completer {
     addTypes(registry_.imports, "@");
     if (!refers || condition)
       addWords(std::initializer_list<const char*>{
-          "size", "mips",  "count", "has",  "age",  "format",   "min",      "max",    "floor",
-          "ceil", "round", "abs",   "pow2", "log2", "pow2ceil", "log2ceil", "screen", "device.software",
-          "true", "false"});
+          "size",          "mips", "count",    "has",      "age",    "format",
+          "min",           "max",  "floor",    "ceil",     "round",  "abs",
+          "pow2",          "log2", "pow2ceil", "log2ceil", "screen", "device.software",
+          "device.window", "true", "false"});
   }
 
   // The values of an import of which "lamps[0].col" is typed: by its type, or by a name that this file gives it.

@@ -64,10 +64,11 @@ runtime::WorldFacts factsWithoutWorld() {
   return {.scene = std::make_shared<const scene::Scene>(std::move(scene))};
 }
 
-graph::Settings settingsOf(const Options& options, bool software) {
+graph::Settings settingsOf(const Options& options, bool software, bool window) {
   return {.screenWidth = options.width,
           .screenHeight = options.height,
           .software = software,
+          .window = window,
           .sets = options.sets,
           .disables = options.disables,
           .kept = options.kept};

@@ -31,7 +31,7 @@ std::vector<std::string> presetFolders(const std::string& own);
 // The file of a preset. A word that is no file here is a name in one of the folders; one that is nowhere, of the bundled ones.
 std::string presetFile(const std::string& preset, const std::string& own);
 
-graph::Settings settingsOf(const Options& options, bool software);
+graph::Settings settingsOf(const Options& options, bool software, bool window = false);
 
 // Path of the scene file: the one the options name, or the bundled one.
 std::string scenePathOf(const Options& options);

@@ -44,7 +44,7 @@ int runView(ViewOptions& options) {
         options.backend));
     return 2;
   }
-  graph::Settings settings = settingsOf(options, session->context->device().software);
+  graph::Settings settings = settingsOf(options, session->context->device().software, true);
   const gl::Size size = session->context->framebufferSize();
   settings.screenWidth = std::max(1u, size.width);
   settings.screenHeight = std::max(1u, size.height);

@@ -67,7 +67,7 @@ class EvalScope {
  public:
   enum class NameKind : std::uint8_t { variable, fact_argument, builtin };
   virtual ~EvalScope() = default;
-  // $name or $pass.parameter, also `let` names; a bare repeat index; "screen", "device.software"; size(resource).
+  // $name or $pass.parameter, also `let` names; a bare repeat index; "screen", "device.software", "device.window"; size(resource).
   virtual std::optional<Value> variable(std::string_view) { return std::nullopt; }
   virtual std::optional<Value> index(std::string_view) { return std::nullopt; }
   virtual std::optional<Value> builtin(std::string_view) { return std::nullopt; }

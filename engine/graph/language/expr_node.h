@@ -18,7 +18,7 @@ enum class ExprOp : std::uint8_t {
   list,        // children: 1..4 items
   variable,    // name: "bloom", "composite.fog"
   identifier,  // name: a repeat index, else a symbol
-  builtin,     // name: "screen", "device.software"
+  builtin,     // name: "screen", "device.software", "device.window"
   // name: the resource, with its @ if written; fact; children: the level of size(x.mip[level]). Of Fact::value also its name, in
   // `value`, and children: the row.
   fact,

@@ -190,8 +190,7 @@ bool Renderer::prepareStandIns(const graph::FlatGraph& graph, const World& world
       auto made = std::make_unique<Renderer>(
           device_->context, (std::filesystem::path(options_.dataFolder) / import.fallback).string(),
           std::move(options));
-      graph::Settings settings;
-      settings.software = device_->context.device().software;
+      const graph::Settings settings{.software = device_->context.device().software};
       if (!made->load(settings, world, diagnostics)) return false;
       made->frame(world, headlessFrame(world, 0, 60), diagnostics);
       // Its plan does not know the readers.

@@ -31,6 +31,7 @@ struct Live {
   Live(const char* sliced, bool isHeadless = false)
       : stage("tests/runtime/graphs/fade.json", 64, 36), headless(isHeadless) {
     stage.settings.sets = {{"ibl.sliced", sliced}};
+    stage.settings.window = true;
   }
   void use(std::shared_ptr<const assets::EnvironmentMap> map) {
     stage.world.setEnvironment(std::move(map));

@@ -158,6 +158,7 @@ TEST_CASE("the same while one environment fades into the next, with lighting in 
     Tally tally;
     Stage stage(withSmallMaps("graphs/studio.json"), 48, 27);
     stage.settings.sets = {{"ibl.sliced", sliced}};
+    stage.settings.window = true;
     GlRecorder recorder;
     std::uint32_t frames = 0, changed = 0;
     std::vector<std::uint8_t> last;

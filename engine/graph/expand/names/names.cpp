@@ -97,11 +97,10 @@ std::optional<Value> Names::index(std::string_view name) {
 std::optional<Value> Names::builtin(std::string_view name) {
   if (name == "screen") {
     const auto [width, height] = screenOf(model_, scope_);
-    return Value{.type = Value::Type::list,
-                 .count = 2,
-                 .v = {static_cast<double>(width), static_cast<double>(height), 0, 0}};
+    return Value{Value::Type::list, 2, {1.0 * width, 1.0 * height, 0, 0}, {}};
   }
   if (name == "device.software") return Value::boolean(model_.settings.software);
+  if (name == "device.window") return Value::boolean(model_.settings.window);
   return std::nullopt;
 }
 
@@ -197,7 +196,7 @@ std::vector<std::string> Names::choicesOf(std::string_view variable) {
 }
 
 std::vector<std::string> Names::candidates(NameKind kind) {
-  if (kind == NameKind::builtin) return {"screen", "device.software"};
+  if (kind == NameKind::builtin) return {"screen", "device.software", "device.window"};
   std::vector<std::string> names;
   if (kind == NameKind::fact_argument) {
     names = resourceNames(model_, scope_);
@@ -271,10 +270,8 @@ FoundValue findValue(Model& model, Scope& scope, const ImportValue& asked) {
 Value shapeOf(const TableColumn& column, std::uint8_t part) {
   if (column.type == "mat4" && part == kWholeValue) return {};
   const bool list = column.type.starts_with("vec") || column.type == "mat4";
-  Value value = Value::number(kTrialAge);
-  if (!list) return value;
-  value.type = Value::Type::list;
-  value.count = static_cast<std::uint8_t>(column.type.back() - '0');
+  if (!list) return Value::number(kTrialAge);
+  Value value{Value::Type::list, static_cast<std::uint8_t>(column.type.back() - '0'), {}, {}};
   value.v.fill(kTrialAge);
   return value;
 }

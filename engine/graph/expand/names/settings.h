@@ -35,8 +35,8 @@ struct Disable {
 
 struct Settings {
   std::uint32_t screenWidth = 1280, screenHeight = 720;
-  bool software = false;        // device.software
-  std::vector<Setting> sets{};  // in order: the last wins
+  bool software = false, window = false;  // device.software, device.window
+  std::vector<Setting> sets{};            // in order: the last wins
   std::vector<Disable> disables{};
   std::vector<Pick> kept{};  // to be looked at: what writes them is live
 };
