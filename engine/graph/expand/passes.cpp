@@ -258,7 +258,7 @@ class PassWalk {
     const auto index = static_cast<std::uint32_t>(graph_.disabled.size());
     graph_.disabled.push_back(std::move(pass));
     for (SlotWork& work : slots_) {
-      work.use.keep = stanza.desc.sideEffect;
+      work.use.keep = stanza.desc.sideEffect;  // for judge/culled.cpp
       if (work.isConnected() && work.reads())
         wouldUse(model_, {work});
       else if (work.isConnected())

@@ -378,7 +378,8 @@ class Parser {
     node->name = word.text;
     node->op = word.text == "screen" ? ExprOp::builtin : ExprOp::identifier;
     if (word.text == "device") {
-      if (!accept(".") || token_.kind != Token::Kind::identifier) return failUnexpected("'device.software'");
+      if (!accept(".") || token_.kind != Token::Kind::identifier)
+        return failUnexpected("a name behind 'device.'");
       node->op = ExprOp::builtin;
       node->name = fmt::format("device.{}", token_.text);
       advance();

@@ -240,10 +240,10 @@ class GltfReader {
     std::optional<GltfAccessor> indices;
     if (which) indices = document_.accessor(*which, "SCALAR", false);
     const std::uint64_t corners = std::uint64_t{indices ? indices->count : count_} * (mode == 4 ? 1 : 3);
-    GltfDocument::refuseUnless(
-        builder_.hasRoom(std::max<std::uint64_t>(count_, attributes.find("NORMAL") ? 0 : corners), corners,
-                         value.place, diagnostics_));
+    const std::uint64_t vertices = std::max<std::uint64_t>(count_, attributes.find("NORMAL") ? 0 : corners);
+    GltfDocument::refuseUnless(builder_.hasRoom(vertices, corners, value.place, diagnostics_));
     RawMesh mesh{.name = name, .join = made_};
+    if (skinned) part.joints = readWeights(attributes, mesh);  // first, for it takes most memory
     mesh.vertices.resize(count_, {.tangent = glm::vec4(0)});
     take(attribute<glm::vec3>(attributes, "POSITION", kFarthest), mesh, &Vertex::position);
     // Normals and tangents that are no numbers are made anew.
@@ -261,9 +261,8 @@ class GltfReader {
       if (i == 1) mesh.secondUvs = std::move(found);
     }
     mesh.tangentsAtSecondUv = (surface.samplers[1] & atSecondUv) != 0;
-    if (skinned) part.joints = readWeights(attributes, mesh);
     readColors(attributes, mesh);
-    morph(value, weights, moves, corners, mesh);
+    morph(value, weights, moves, vertices, mesh);
     readIndices(value, indices, mode, mesh);
     part.mesh = builder_.add(std::move(mesh));
     return part;
@@ -331,14 +330,13 @@ class GltfReader {
   }
 
   // The mesh as its targets move it, each by its weight; where weights are to move, it keeps its targets. glTF 2.0, 3.7.2.2.
-  void morph(const JsonValue& primitive, const std::vector<float>& weights, bool moves, std::uint64_t corners,
-             RawMesh& mesh) {
+  void morph(const JsonValue& primitive, const std::vector<float>& weights, bool moves,
+             std::uint64_t vertices, RawMesh& mesh) {
     const std::vector<JsonValue>& targets = itemsOf(primitive, "targets");
     for (std::size_t t = 0; t < std::min(weights.size(), targets.size()); ++t) {
       if (!moves && weights[t] == 0) continue;
-      // The same accessor may serve any number of targets; each is held here, in the model and in the scene.
-      GltfDocument::refuseUnless(files_.count(
-          (count_ + 2 * (mesh.normals ? count_ : corners)) * sizeof(MorphTarget), targets[t].place));
+      // The same accessor may serve any number of targets: each has vertices of its own.
+      GltfDocument::refuseUnless(builder_.hasRoom(vertices, 0, targets[t].place, diagnostics_));
       std::vector<MorphTarget>& target = mesh.morphs.emplace_back(count_);
       const auto read = [&](const char* name, glm::vec3 MorphTarget::*member) {
         const std::vector<glm::vec3> values = attribute<glm::vec3>(targets[t], name, kFarthest);

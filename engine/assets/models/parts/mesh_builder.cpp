@@ -68,8 +68,8 @@ void makeNormals(RawMesh& mesh) {
 }
 
 struct TriangleFrame {
-  Vec tangent{0};
-  double sign = 0;  // of the bitangent; 0: the triangle has no area in uv
+  glm::vec3 tangent{0};
+  float sign = 0;  // of the bitangent; 0: the triangle has no area in uv
 };
 
 // Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", 2001; v upwards, as normal maps have green.
@@ -85,36 +85,36 @@ TriangleFrame frameOf(const RawMesh& mesh, std::size_t corner) {
   const double u1 = ab.x, v1 = -ab.y, u2 = ac.x, v2 = -ac.y;
   const double area = u1 * v2 - u2 * v1;
   if (area == 0 || !std::isfinite(area)) return {};
-  const double sign = area > 0 ? 1 : -1;
-  return {(e1 * v2 - e2 * v1) * sign, sign};
+  const float sign = area > 0 ? 1 : -1;
+  return {glm::vec3(e1 * v2 - e2 * v1) * sign, sign};
 }
 
+// Each tangent sums those of its triangles, whose length is their area, with the sign of uv as w; it is made a unit vector then.
 void makeTangents(RawMesh& mesh) {
-  std::vector<Vec> sums(mesh.vertices.size(), Vec(0));
-  std::vector<double> signs(mesh.vertices.size(), 0);
+  for (Vertex& v : mesh.vertices) v.tangent = glm::vec4(0);
   std::unordered_map<std::uint32_t, std::uint32_t> mirrored;  // vertex to its copy with the other sign
   for (std::size_t corner = 0; corner + 2 < mesh.indices.size(); corner += 3) {
     const TriangleFrame frame = frameOf(mesh, corner);
     if (frame.sign == 0) continue;
     for (std::size_t i = corner; i < corner + 3; ++i) {
       std::uint32_t vertex = mesh.indices[i];
-      if (signs[vertex] == -frame.sign) {
-        const auto [found, isNew] = mirrored.try_emplace(vertex, static_cast<std::uint32_t>(sums.size()));
+      if (mesh.vertices[vertex].tangent.w == -frame.sign) {
+        const auto last = static_cast<std::uint32_t>(mesh.vertices.size());
+        const auto [copy, isNew] = mirrored.try_emplace(vertex, last);
         if (isNew) {
           forColumns(mesh, [&](auto& rows) { rows.push_back(rows[vertex]); });
-          sums.emplace_back(0);
-          signs.push_back(frame.sign);
+          mesh.vertices.back().tangent = glm::vec4(0);
         }
-        mesh.indices[i] = vertex = found->second;
+        mesh.indices[i] = vertex = copy->second;
       }
-      signs[vertex] = frame.sign;
-      sums[vertex] = sums[vertex] + frame.tangent;  // longer where the triangle is larger: it counts for more
+      glm::vec4& sum = mesh.vertices[vertex].tangent;
+      sum = {glm::vec3(sum) + frame.tangent, frame.sign};
     }
   }
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    const Vec n(mesh.vertices[v].normal);
-    const glm::vec3 t(unit(sums[v] - n * glm::dot(n, sums[v]), perpendicular(n)));
-    mesh.vertices[v].tangent = {t, signs[v] < 0 ? -1.0f : 1.0f};
+  for (Vertex& v : mesh.vertices) {
+    const Vec n(v.normal), sum(v.tangent);
+    const glm::vec3 t(unit(sum - n * glm::dot(n, sum), perpendicular(n)));
+    v.tangent = {t, v.tangent.w < 0 ? -1.0f : 1.0f};
   }
 }
 
@@ -179,12 +179,11 @@ bool MeshBuilder::hasRoom(std::uint64_t vertices, std::uint64_t corners, const t
                           text::Diagnostics& diagnostics) {
   vertices_ += vertices;
   corners_ += corners;
-  const std::uint64_t most = text::raised(kMaxVertices);
   const std::uint64_t counted = std::max(vertices_, corners_ / 3);
-  if (counted <= most) return true;
+  if (counted <= text::raised(kMaxVertices)) return true;
   if (!full_)
     text::reportLimit(diagnostics, place, "the model has too many vertices", kMaxVertices,
-                      "vertices of one model, and a third of its corners", counted)
+                      "vertices of one model with its morph targets, and a third of its corners", counted)
         .found = fmt::format("{} vertices and {} corners of triangles", vertices_, corners_);
   full_ = true;
   return false;

@@ -17,7 +17,7 @@ namespace weft::assets {
 
 // Of one model. Bytes: of all its files, and of what is packed in them.
 constexpr std::uint64_t kMaxModelBytes = 512ull << 20, kMaxModelTextBytes = 24ull << 20,
-                        kMaxVertices = 8ull << 20, kMaxTexels = 64ull << 20, kMaxModelFiles = 4096;
+                        kMaxVertices = 6ull << 20, kMaxTexels = 64ull << 20, kMaxModelFiles = 4096;
 
 class ModelFiles {
  public:

@@ -48,7 +48,8 @@ std::uint32_t TexturePool::put(std::string bytes, const std::string& name, const
   if (const auto size = readPictureHeader(entry.bytes, name, entry.found)) {
     entry.texels = static_cast<std::uint64_t>(size->width) * static_cast<std::uint64_t>(size->height);
     entry.channels = size->channels;
-    if (!countTexels(entry.texels, name, place)) return kNoRow;
+    const std::uint64_t wide = size->type == StoredType::word ? 2 : 1;  // while they are decoded
+    if (!countTexels(entry.texels * wide, name, place)) return kNoRow;
   } else {
     entry.bytes.clear();
   }

@@ -83,7 +83,7 @@ Reach findReach(const Model& model) {
     if (would.use.access == Access::read) add({would, would.position});
   // What is off now is never culled but in `now`; what is read after all passes counts.
   std::vector<std::size_t> off;
-  const auto isKept = [&](std::uint32_t position) {
+  const auto keepsOrNotes = [&](std::uint32_t position) {
     const auto at = std::ranges::lower_bound(model.positionOf, position);
     const bool on = at != model.positionOf.end() && *at == position;
     if (!on && position != kNone && !effects.contains(position)) off.push_back(whole.passes.size());
@@ -94,8 +94,8 @@ Reach findReach(const Model& model) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const Line& line = lines[i];
     if (i == 0 || line.position != lines[i - 1].position)
-      whole.passes.push_back(
-          {.firstUse = static_cast<std::uint32_t>(whole.uses.size()), .sideEffect = isKept(line.position)});
+      whole.passes.push_back({.firstUse = static_cast<std::uint32_t>(whole.uses.size()),
+                              .sideEffect = keepsOrNotes(line.position)});
     for (std::uint32_t e = 0; isOwn(model, line.entity) && e < line.elementCount; ++e) {
       whole.uses.push_back(line.use);
       whole.uses.back().resource = resourceOf[line.entity] + line.firstElement + e;
