@@ -2,6 +2,7 @@
 // read    light_maps    `as compare`, an array: of the sun if there is one, of the first spot, of the others
 //         light_depths  the same as numbers
 //         scene_bounds  see shadow/scene_bounds.glsl
+//         sun_windows?  see shadow/sun_windows.comp.glsl: their maps are the last of light_maps
 //         sun?, brightest?   see scene/sun.glsl, ibl/brightest.glsl; included before, as is sky_turn
 // Penumbrae grow with the distance from what casts them: percentage-closer soft shadows, Fernando, SIGGRAPH 2005 sketches. A sample beside
 // the point is compared with the receiver's plane there, so planes do not shadow themselves. A point may lie beyond depth 0 of the map.
@@ -14,6 +15,9 @@
 #include "shadow/scene_bounds.glsl"
 #ifdef HAS_SUN
 #include "scene/sun.glsl"
+#ifdef HAS_SUN_WINDOWS
+layout(std430) readonly buffer sun_windows { Sun sun_window[]; };
+#endif
 #endif
 
 uniform sampler2DArrayShadow light_maps;
@@ -106,6 +110,17 @@ LightsSeen lightsPastMeshes(vec3 position, vec3 n, float turn) {
 #ifdef HAS_SUN
     if (i == 0) {
       self = shadowedSun(sun_light[0]);
+#ifdef HAS_SUN_WINDOWS
+      // The finest window that holds all that the widest penumbra is made of.
+      for (int w = 0; w < sun_window.length(); ++w) {
+        ShadowedLight finer = shadowedSun(sun_window[w]);
+        vec2 off = abs(onMap(finer.map, position).xy - 0.5);
+        if (max(off.x, off.y) < 0.49 - kWidest) {
+          self = finer;
+          light_layer = float(textureSize(light_maps, 0).z - sun_window.length() + w);
+        }
+      }
+#endif
     }
 #endif
     float open = 1.0;
