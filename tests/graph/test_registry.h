@@ -86,6 +86,7 @@ inline std::vector<ImportType> testImports() {
        .arguments = {argument("jitter", Value::number(0)), argument("focal_length", Value::number(0)),
                      argument("sensor_height", Value::number(24)), argument("around", Value::number(-1))},
        .columns = {{"position", "vec3", ""},
+                   {"direction", "vec3", ""},
                    {"near_plane", "float", ""},
                    {"target_distance", "float", ""},
                    {"view", "mat4", ""}},
