@@ -142,4 +142,13 @@ TEST_CASE("windows of the sun's map: a wide penumbra goes on before a rim") {
   CHECK(worst < 0.08);
 }
 
+TEST_CASE("windows of the sun's map: none of a sun without shadows") {
+  const CleanScope clean;
+  scene::Scene scene = Plain(0.53f).scene();
+  scene.sun->shadow = false;
+  const auto dark = constantEnvironment(0, 0, 0);
+  const Frame frame = {"graphs/deferred.json", {}, {{"sun_maps", "3"}}};
+  CHECK(radianceOf(frame, scene, true, dark) == radianceOf(frame, scene, false, dark));
+}
+
 }  // namespace shadows_windows_test
