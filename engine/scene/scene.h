@@ -105,7 +105,8 @@ struct Lamp {
   glm::vec3 direction{0, -1, 0};       // unit, from the lamp; of a spot
   float cosInner = -1, cosOuter = -1;  // of half angles: full light within, none outside; -1: all round
   bool shadow = false;
-  float radius = 0;  // world units: of the ball that shines, for soft shadows
+  float radius = 0;            // world units: of the ball that shines, for soft shadows
+  glm::vec3 across{0}, up{0};  // of a rectangle, from its middle to two sides; 0: it is none
   // What it stands on: position and direction are in this node's coordinates then. Lengths are not scaled. None: the world.
   NodeId node{};
 };
@@ -197,7 +198,10 @@ struct Scene {
   Table<Lamp> lamps;
   std::optional<Sun> sun;
   std::optional<Ground> ground;
-  float nits = 10000;              // cd/m² that one scene-referred unit stands for
+  float nits = 10000;  // cd/m² that one scene-referred unit stands for
+  glm::vec3 toUnits(double photometric, glm::vec3 color) const {
+    return color * static_cast<float>(photometric / double{nits});
+  }
   Table<Camera> cameras;           // at least one after loading; the first is the default
   std::vector<std::string> files;  // what it was read from, for watching
 };

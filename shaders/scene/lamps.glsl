@@ -11,6 +11,9 @@ struct Lamp {
   float cos_outer;  // -1: all round
   float near_plane; // of its shadow map
   int shadow;       // which cube of the shadow maps; -1: casts none
+#ifdef HAS_LTC
+  vec3 across, up;  // of a rectangle, from its middle to two of its sides; 0: it is none
+#endif
 };
 layout(std430) readonly buffer lamps { Lamp lamp[]; };
 

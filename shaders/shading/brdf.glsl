@@ -7,11 +7,11 @@
 #include "shading/material.glsl"
 
 // Cook-Torrance: GGX, Smith's height-correlated masking (Heitz, JCGT 2014), Schlick's Fresnel, and the layers of `response`, so that
-// light from everywhere adds up to what the environment's maps give. Mirrors reflect a point as if they were of roughness 0.045.
+// light from everywhere adds up to what the environment's maps give.
 vec3 cookTorrance(Response response, vec3 n, vec3 v, vec3 l) {
   float nl = dot(n, l), nv = max(dot(n, v), 1e-4);
   if (nl <= 0.0) return vec3(0.0);
-  float alpha = max(alphaOfRoughness(response.roughness), 0.002), a2 = alpha * alpha;
+  float alpha = alphaUnderLamps(response.roughness), a2 = alpha * alpha;
   vec3 h = normalize(v + l), nxh = cross(n, h);
   float nh = max(dot(n, h), 0.0), vh = clamp(dot(v, h), 0.0, 1.0);
   float d = nh * nh * a2 + dot(nxh, nxh);  // = (N.H)^2 (a2 - 1) + 1, without cancellation

@@ -1,5 +1,6 @@
 // Light of lamps.
 // read    lamps       see scene/lamps.glsl
+//         ltc?        where some are rectangles, see shading/rectangle.glsl
 //         lamp_maps?  their shadow maps, see shading/lamp_shadow.glsl
 //         clusters?, slices?   which lamps reach where, see deferred/clusters.glsl (forward, `clusters` is its `columns`); without both,
 //                              every pixel goes through all lamps
@@ -12,6 +13,9 @@
 #ifdef HAS_LAMP_MAPS
 #include "shading/lamp_shadow.glsl"
 #endif
+#ifdef HAS_LTC
+#include "shading/rectangle.glsl"
+#endif
 #if defined HAS_CLUSTERS || defined HAS_SLICES
 #include "deferred/clusters.glsl"
 #endif
@@ -23,12 +27,20 @@ layout(std430) readonly buffer slices { uint slice_word[]; };
 #endif
 
 vec3 lampRadiance(Lamp self, Point point, Response response) {
+  float seen = 1.0;
   vec3 l, arrives = lampIrradiance(self, point.position, l);
+#ifdef HAS_LTC
+  bool is_rectangle = self.across != vec3(0.0);
+  if (is_rectangle) l = point.normal;  // a part may be above the horizon
+#endif
   if (dot(point.normal, l) <= 0.0 || arrives == vec3(0.0)) return vec3(0.0);
 #ifdef HAS_LAMP_MAPS
-  if (self.shadow >= 0 && self.shadow < textureSize(lamp_maps, 0).z) arrives *= seenOfLamp(self, point.position, point.normal);
+  if (self.shadow >= 0 && self.shadow < textureSize(lamp_maps, 0).z) seen = seenOfLamp(self, point.position, point.normal);
 #endif
-  return directRadiance(point, response, l) * arrives;
+#ifdef HAS_LTC
+  if (is_rectangle) return rectangleRadiance(self, point, response) * seen;
+#endif
+  return directRadiance(point, response, l) * (arrives * seen);
 }
 
 // `tried`: how many lamps it went through.

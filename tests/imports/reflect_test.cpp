@@ -175,6 +175,24 @@ TEST_CASE("a sun is there if the scene has one, if it casts, or if the graph say
   CHECK(is("direction", up, {}));
 }
 
+TEST_CASE("lamps that cast shadows, or are rectangles, are tables of their own") {
+  scene::Scene scene;
+  scene.lamps.add({.name = "a", .shadow = true});
+  scene.lamps.add({.name = "b"});
+  const auto count = [&](std::string_view argument) {
+    graph::ImportRequest request = requestOf("lamps");
+    for (auto& [name, given] : request.arguments)
+      if (name == argument) given = graph::Value::boolean(true);
+    const graph::ImportFacts facts = factsOf(request, World(scene).facts());
+    return facts.exists ? facts.count : 0;
+  };
+  CHECK(count("") == 2);
+  CHECK(count("casting") == 1);
+  CHECK(count("sized") == 0);
+  scene.lamps.add({.name = "c", .across = {1, 0, 0}, .up = {0, 0, 1}});
+  CHECK(count("sized") == 1);
+}
+
 TEST_CASE("the camera is the one view of every pass; a lens and a jitter are its arguments") {
   const graph::ImportType type = importOf("camera").reflect();
   CHECK(type.kind == ImportKind::view);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -110,7 +112,6 @@ class SunProvider : public RowsProvider<SunProvider, SunRow> {
 };
 
 struct LampRow : scene::Lamp {
-  float nearPlane = 0;
   std::int32_t caster = -1;
 };
 
@@ -123,8 +124,10 @@ Columns<LampRow> lampColumns() {
           column<Row, &Row::cosInner>("cos_inner", "of a spot: cosine within which it is full; -1 all round"),
           column<Row, &Row::direction>("direction", "unit, away from it, of a spot"),
           column<Row, &Row::cosOuter>("cos_outer", "cosine beyond which nothing is lit"),
-          column<Row, &Row::nearPlane>("near_plane", "of its views"),
+          column<Row, &scene::nearPlaneOf>("near_plane", "of its views"),
           column<Row, &Row::radius>("radius", "world units: its own, for soft shadows"),
+          column<Row, &Row::across>("across", "of a rectangle: from its middle to a side; 0: it is none"),
+          column<Row, &Row::up>("up", "to the next side"),
           column<Row, &Row::caster>("shadow", "index among those that cast shadows, or -1")};
 }
 
@@ -136,25 +139,24 @@ class LampsProvider : public RowsProvider<LampsProvider, LampRow> {
             .doc =
                 "The scene's point and spot lights, one row each, and views of 90 degrees from them: "
                 "@lamps[l].face[f], faces as of a cube map.",
-            .arguments = {argument("casting", graph::Value::boolean(false), "only those that cast shadows")},
+            .arguments = {argument("casting", graph::Value::boolean(false), "only those that cast shadows"),
+                          argument("sized", graph::Value::boolean(false), "only those with a size")},
             .columns = tell(lampColumns()),
             .views = true};
   }
 
   static graph::ImportFacts facts(const graph::ImportRequest& request, const WorldFacts& world, Files&) {
-    const bool casting = request.at("casting").truth();
-    return factsOfRows(static_cast<std::size_t>(std::ranges::count_if(
-        world.scene->lamps.rows(), [&](const scene::Lamp& lamp) { return lamp.shadow || !casting; })));
+    return factsOfRows(
+        static_cast<std::size_t>(std::ranges::count_if(world.scene->lamps.rows(), choice(request))));
   }
 
   explicit LampsProvider(const graph::ImportRequest& request)
-      : RowsProvider("lamps", lampColumns()), casting_(request.at("casting").truth()) {}
+      : RowsProvider("lamps", lampColumns()), chosen_(choice(request)) {}
 
   std::vector<LampRow> rows(const Frame&) const {
     std::vector<LampRow> rows;
     std::int32_t casters = 0;
-    for (const scene::Lamp& lamp : lamps_)
-      rows.push_back({lamp, scene::nearPlaneOf(lamp), lamp.shadow ? casters++ : -1});
+    for (const scene::Lamp& lamp : lamps_) rows.push_back({lamp, lamp.shadow ? casters++ : -1});
     return rows;
   }
   const scene::ViewData& view(const Frame& frame, const ViewPart& part) override {
@@ -171,8 +173,7 @@ class LampsProvider : public RowsProvider<LampsProvider, LampRow> {
     const std::uint64_t now = placed.lightsGeneration();
     if (std::exchange(placed_, now) == now) return now;
     lamps_.clear();
-    for (const scene::Lamp& lamp : placed.lamps())
-      if (lamp.shadow || !casting_) lamps_.push_back(lamp);
+    std::ranges::copy_if(placed.lamps(), std::back_inserter(lamps_), chosen_);
     return now;
   }
   bool isStill(const World& world) const override {
@@ -182,7 +183,13 @@ class LampsProvider : public RowsProvider<LampsProvider, LampRow> {
   }
 
  private:
-  bool casting_;
+  static std::function<bool(const scene::Lamp&)> choice(const graph::ImportRequest& request) {
+    return [casting = request.at("casting").truth(),
+            sized = request.at("sized").truth()](const scene::Lamp& lamp) {
+      return (lamp.shadow || !casting) && (lamp.across != glm::vec3(0) || !sized);
+    };
+  }
+  std::function<bool(const scene::Lamp&)> chosen_;
   std::uint64_t placed_ = 0;        // generation of the lamps that were seen last
   std::vector<scene::Lamp> lamps_;  // those that the import has
   scene::ViewData view_;

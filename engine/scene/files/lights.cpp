@@ -47,10 +47,6 @@ class LightReader {
       diagnostics_.error(say::directionWithoutLength, fields.find("direction")->place, what);
   }
 
-  glm::vec3 toUnits(double photometric, glm::vec3 color) const {
-    return color * static_cast<float>(photometric / static_cast<double>(scene_.nits));
-  }
-
   void readSun(const JsonValue& value) {
     SceneFields fields(value, "the sun", Code::badSceneValue, diagnostics_);
     fields.require({"direction", "lux"});
@@ -63,15 +59,15 @@ class LightReader {
     fields.read("angle", kSunAngle, sun.angle);
     fields.read("shadow", sun.shadow);
     fields.finish();
-    sun.irradiance = toUnits(lux, color);
+    sun.irradiance = scene_.toUnits(lux, color);
     scene_.sun = sun;
   }
 
   bool hasRoom(const JsonValue& value, std::size_t more) {
     if (scene_.lamps.size() + more <= kMaxLamps) return true;
     if (!std::exchange(full_, true))
-      failTooMany(diagnostics_, value, "the scene has too many lamps", kMaxLamps,
-                  fmt::format("{}", scene_.lamps.size() + more));
+      diagnostics_.error(say::tooManyInAll, value.place, "the scene has too many lamps", kMaxLamps,
+                         fmt::format("{}", scene_.lamps.size() + more), "");
     return false;
   }
 
@@ -89,9 +85,18 @@ class LightReader {
     const auto inner = fields.number("inner", kConeAngle), outer = fields.number("outer", kConeAngle);
     fields.read("shadow", lamp.shadow);
     const bool aimed = fields.find("direction") != nullptr;
+    glm::vec2 size(0);
+    fields.read("size", kSize, size);
     fields.finish();
-    if ((inner || outer) && !aimed) diagnostics_.error(say::coneWithoutDirection, value.place, what);
-    if (aimed) setCone(value, what, inner.value_or(0), outer.value_or(45), lamp);
+    const bool sized = size.x > 0, cone = inner || outer;
+    if (sized && (cone || lamp.radius > 0)) diagnostics_.error(say::sizeAndCone, value.place, what);
+    if ((cone || sized) && !aimed) diagnostics_.error(say::coneWithoutDirection, value.place, what);
+    // Shaders that know no sizes see a wide spot.
+    if (aimed) setCone(value, what, inner.value_or(0), outer.value_or(sized ? 90 : 45), lamp);
+    const glm::vec3 side = glm::cross(lamp.direction, glm::vec3(0, 1, 0));
+    lamp.across = glm::length(side) > 1e-3f ? glm::normalize(side) : glm::vec3(1, 0, 0);
+    lamp.up = glm::cross(lamp.across, lamp.direction) * (size.y / 2);
+    lamp.across *= size.x / 2;
     if (hasRoom(value, 1)) scene_.lamps.add(std::move(lamp));
   }
 
@@ -104,15 +109,12 @@ class LightReader {
     return candela;
   }
   void setIntensity(double candela, glm::vec3 color, Lamp& lamp) const {
-    lamp.intensity = toUnits(candela, color);
+    lamp.intensity = scene_.toUnits(candela, color);
     if (lamp.range == 0) lamp.range = rangeOf(lamp.intensity);
   }
 
   void setCone(const JsonValue& value, const std::string& what, double inner, double outer, Lamp& lamp) {
-    if (inner > outer) {
-      diagnostics_.error(say::innerConeWider, value.place, what, outer, inner);
-      return;
-    }
+    if (inner > outer) diagnostics_.error(say::innerConeWider, value.place, what, outer, inner);
     lamp.cosInner = static_cast<float>(std::cos(inner * std::numbers::pi / 180));
     lamp.cosOuter = static_cast<float>(std::cos(outer * std::numbers::pi / 180));
   }
@@ -127,8 +129,8 @@ class LightReader {
     std::vector<glm::vec3> colors;
     if (const JsonValue* list = fields.array("colors"))
       for (const JsonValue& item : list->items)
-        if (const auto color = text::readTriple(item, fmt::format("a color of {}", what), kUnit,
-                                                Code::badSceneValue, diagnostics_))
+        if (const auto color = text::readNumbers(item, fmt::format("a color of {}", what), kUnit,
+                                                 Code::badSceneValue, diagnostics_))
           colors.emplace_back((*color)[0], (*color)[1], (*color)[2]);
     if (colors.empty()) colors.emplace_back(1);
     Lamp strength;

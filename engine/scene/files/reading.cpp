@@ -10,11 +10,6 @@
 
 namespace weft::scene {
 
-void failTooMany(text::Diagnostics& diagnostics, const text::JsonValue& value, std::string message,
-                 std::size_t most, std::string found, std::string hint) {
-  diagnostics.error(say::tooManyInAll, value.place, message, most, found, hint);
-}
-
 std::optional<std::uint8_t> readLists(text::JsonFields& fields, const std::string& what,
                                       text::Diagnostics& diagnostics) {
   const text::JsonValue* lists = fields.array("lists");
@@ -46,8 +41,7 @@ std::vector<std::string> readTags(text::JsonFields& fields, const std::string& w
 
 void SceneGrid::read(SceneFields& fields) {
   constexpr text::NumberRange kCount{.min = 1, .max = 65536, .whole = true};
-  if (const auto given = fields.triple("count", kCount))
-    for (std::size_t i = 0; i < 3; ++i) count[i] = static_cast<int>((*given)[i]);
+  fields.read("count", kCount, count);
   fields.read("spacing", kSize, spacing);
 }
 

@@ -1,7 +1,6 @@
 // What the readers of scene files share: ranges of numbers, vectors, grids, draw lists, messages with a place.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -26,16 +25,12 @@ class SceneFields : public text::JsonFields {
   void read(std::string_view key, const text::NumberRange& range, T& out) {
     if constexpr (std::is_arithmetic_v<T>) {
       if (const auto number = JsonFields::number(key, range)) out = static_cast<T>(*number);
-    } else if (const auto triple = JsonFields::triple(key, range)) {
-      out = T((*triple)[0], (*triple)[1], (*triple)[2]);
+    } else if (const auto numbers = JsonFields::numbers(key, range, T::length())) {
+      out = T(glm::dvec3((*numbers)[0], (*numbers)[1], (*numbers)[2]));
     }
   }
   void read(std::string_view key, bool& out) { out = boolean(key).value_or(out); }
 };
-
-// What is more than `most`.
-void failTooMany(text::Diagnostics& diagnostics, const text::JsonValue& value, std::string message,
-                 std::size_t most, std::string found, std::string hint = "");
 
 // The key `lists`: which draw lists something is in, as a mask of maskOf(). Empty when it is absent; W162 for a name that is none.
 // `what` names the object in messages.
@@ -48,7 +43,7 @@ std::vector<std::string> readTags(text::JsonFields& fields, const std::string& w
 
 // The keys `count` and `spacing`, and places around a center row by row, from the upper left one in front.
 struct SceneGrid {
-  std::array<int, 3> count{};
+  glm::ivec3 count{0};
   float spacing = 2.5f;
   glm::vec3 center{0};
 
@@ -58,7 +53,7 @@ struct SceneGrid {
   template <class Put>
   void forEach(const Put& put) const {
     std::size_t index = 0;
-    const glm::vec3 n(count[0], count[1], count[2]);
+    const glm::vec3 n(count);
     for (int z = 0; z < count[2]; ++z)
       for (int y = 0; y < count[1]; ++y)
         for (int x = 0; x < count[0]; ++x)

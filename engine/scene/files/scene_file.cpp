@@ -144,8 +144,8 @@ class Reader {
     const Loaded* loaded = load(name_);
     if (!loaded) return {};
     if (loaded->model.lights.size() > kMaxLamps) {
-      failTooMany(diagnostics_, whole, fmt::format("the model '{}' has too many lights", name_), kMaxLamps,
-                  fmt::format("{}", loaded->model.lights.size()));
+      fail(say::tooManyInAll, whole, fmt::format("the model '{}' has too many lights", name_), kMaxLamps,
+           fmt::format("{}", loaded->model.lights.size()), "");
       return {};
     }
     ModelCopy copy;
@@ -234,6 +234,11 @@ class Reader {
     diagnostics_.error<Args...>(what, value.place, std::forward<Args>(args)...);
   }
 
+  // Of a file that the scene names.
+  std::string pathOf(const std::string& file) const {
+    return (std::filesystem::path(name_).parent_path() / file).lexically_normal().string();
+  }
+
   void failNoGrid(const JsonValue& where) { fail(say::materialsWithoutGrid, where, choice_.materials); }
 
   Scene finish() {
@@ -267,10 +272,10 @@ class Reader {
     Ground ground;
     fields.read("height", kWorld, ground.height);
     fields.read("radius", kSize, ground.radius);
-    if (fields.find("albedo")) fields.read("albedo", kUnit, ground.albedo.emplace());
-    if (fields.find("radius") && !fields.find("albedo")) {
-      fail(say::radiusWithoutSurface, *fields.find("radius"));
-    }
+    if (fields.find("albedo"))
+      fields.read("albedo", kUnit, ground.albedo.emplace());
+    else if (const JsonValue* radius = fields.find("radius"))
+      fail(say::radiusWithoutSurface, *radius);
     fields.finish();
     scene_.ground = ground;
   }
@@ -291,8 +296,7 @@ class Reader {
   std::vector<MaterialId> readLibrary(const JsonValue& value, const std::string& what) {
     const auto given = text::readText(value, what, diagnostics_);
     if (!given) return {};
-    return readLibraryFile((std::filesystem::path(name_).parent_path() / *given).lexically_normal().string(),
-                           value);
+    return readLibraryFile(pathOf(*given), value);
   }
 
   std::vector<MaterialId> readLibraryFile(const std::string& path, const JsonValue& value) {
@@ -374,8 +378,8 @@ class Reader {
     }
     if (grid.total() == 0 || ids.empty()) return;
     if (grid.total() > static_cast<double>(kMaxSpheres))
-      return failTooMany(diagnostics_, *value.find("count"), "the grid has too many spheres", kMaxSpheres,
-                         fmt::format("{}", grid.total()));
+      return fail(say::tooManyInAll, *value.find("count"), "the grid has too many spheres", kMaxSpheres,
+                  fmt::format("{}", grid.total()), "");
     scene_.spheres.reserve(scene_.spheres.size() + static_cast<std::size_t>(grid.total()));
     grid.forEach([&](std::size_t index, glm::vec3 place) {
       sphere.center = place;
@@ -420,7 +424,7 @@ class Reader {
   }
 
   void readPath(const JsonValue& path, const std::string& what, Camera& camera) {
-    if (path.items.empty()) fail(say::pathEmpty, path, what);
+    if (path.items.empty()) return fail(say::pathEmpty, path, what);
     for (std::size_t i = 0; i < path.items.size(); ++i) {
       const std::string keyName = fmt::format("key {} of {}", i, what);
       SceneFields fields(path.items[i], keyName, Code::badSceneValue, diagnostics_);
@@ -436,7 +440,6 @@ class Reader {
         fail(say::notLater, path.items[i], keyName);
       camera.path.push_back(key);
     }
-    if (camera.path.empty()) return;
     camera.pose.position = camera.path.front().position;
     camera.pose.target = camera.path.front().target;
     camera.pose.fovDegrees = camera.path.front().fovDegrees;
@@ -501,9 +504,7 @@ class Reader {
     const JsonValue* animation = fields.find("animation");
     fields.finish();
     if (!file || grid.total() == 0) return;
-    const Loaded* loaded =
-        load((std::filesystem::path(name_).parent_path() / *file).lexically_normal().string(),
-             fields.find("file"));
+    const Loaded* loaded = load(pathOf(*file), fields.find("file"));
     if (!loaded) return;
     if (animation) readAnimation(*animation, what, loaded->model, copy);
     if (copy.material && !scene_.materials.find(*copy.material)) return;
@@ -545,20 +546,16 @@ class Reader {
     const double rows = total * static_cast<double>(each),
                  lamps = copy.lights ? total * static_cast<double>(model.lights.size() - suns) : 0;
     if (rows + static_cast<double>(scene_.nodes.size()) > static_cast<double>(kMaxNodes))
-      return failTooMany(diagnostics_, value,
-                         fmt::format("with model '{}' the scene has too many nodes", name), kMaxNodes,
-                         fmt::format("{} copies of {} nodes, instances or animated weights", total, each));
+      return fail(say::tooManyInAll, value, fmt::format("with model '{}' the scene has too many nodes", name),
+                  kMaxNodes, fmt::format("{} copies of {} nodes, instances or animated weights", total, each),
+                  "");
     if (lamps + static_cast<double>(scene_.lamps.size()) > static_cast<double>(kMaxLamps))
-      return failTooMany(diagnostics_, value,
-                         fmt::format("with model '{}' the scene has too many lamps", name), kMaxLamps,
-                         fmt::format("{} copies of {} lamps", total, model.lights.size() - suns),
-                         "leave them out: \"lights\": false");
-    if (copy.lights && suns > 0 && !scene_.sun) {
-      sunOf_ = name;
-    } else if (copy.lights && suns > 0 &&
-               !sunOf_.empty()) {  // a sun of the scene file takes the place of all
-      diagnostics_.warning(say::sunLeftOut, value.place, name, sunOf_);
-    }
+      return fail(say::tooManyInAll, value, fmt::format("with model '{}' the scene has too many lamps", name),
+                  kMaxLamps, fmt::format("{} copies of {} lamps", total, model.lights.size() - suns),
+                  "leave them out: \"lights\": false");
+    const bool sunny = copy.lights && suns > 0;  // a sun of the scene file takes the place of all
+    if (sunny && !sunOf_.empty()) diagnostics_.warning(say::sunLeftOut, value.place, name, sunOf_);
+    if (sunny && !scene_.sun) sunOf_ = name;
     grid.forEach([&](std::size_t index, glm::vec3 place) {
       copy.root.name = total > 1 ? fmt::format("{}[{}]", name, index) : name;
       copy.root.local.translation = place;

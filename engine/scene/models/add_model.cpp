@@ -18,14 +18,10 @@ std::uint32_t addTexture(Scene& scene, const Texture& texture) {
   return static_cast<std::uint32_t>(known.size());
 }
 
-glm::vec3 toUnits(const Scene& scene, const assets::ModelLight& light) {
-  return light.color * (light.intensity / scene.nits);
-}
-
 Lamp toLamp(const Scene& scene, const assets::ModelLight& from, NodeId node, bool shadow) {
   Lamp to;
   to.name = from.name;
-  to.intensity = toUnits(scene, from);
+  to.intensity = scene.toUnits(from.intensity, from.color);
   to.range = from.range > 0 ? from.range : rangeOf(to.intensity);
   if (from.kind == assets::ModelLightKind::spot) {
     to.direction = {0, 0, -1};
@@ -119,7 +115,8 @@ std::vector<NodeId> addModelCopy(Scene& scene, const ModelRows& rows, const asse
     if (from.kind != assets::ModelLightKind::sun)
       scene.lamps.add(toLamp(scene, from, node, copy.lampShadows));
     else if (!scene.sun)
-      scene.sun = Sun{.direction = {0, 0, 1}, .irradiance = toUnits(scene, from), .node = node};
+      scene.sun =
+          Sun{.direction = {0, 0, 1}, .irradiance = scene.toUnits(from.intensity, from.color), .node = node};
   }
   if (!copy.animation) return nodes;
   Animation animation{model.animations[*copy.animation], {}, copy.speed};

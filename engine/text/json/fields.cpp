@@ -49,16 +49,16 @@ std::optional<std::string> readText(const JsonValue& value, std::string_view nam
   return value.text;
 }
 
-std::optional<std::array<double, 3>> readTriple(const JsonValue& value, std::string_view name,
-                                                const NumberRange& range, Code rangeCode,
-                                                Diagnostics& diagnostics) {
-  if (!value.is(JsonValue::Type::array) || value.items.size() != 3) {
-    reportType(value, name, diagnostics, "an array of three numbers");
+std::optional<std::array<double, 3>> readNumbers(const JsonValue& value, std::string_view name,
+                                                 const NumberRange& range, Code rangeCode,
+                                                 Diagnostics& diagnostics, std::size_t count) {
+  if (!value.is(JsonValue::Type::array) || value.items.size() != count) {
+    reportType(value, name, diagnostics, fmt::format("an array of {} numbers", count == 2 ? "two" : "three"));
     return {};
   }
   std::array<double, 3> numbers{};
   bool good = true;
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     const auto number =
         readNumber(value.items[i], fmt::format("{}[{}]", name, i), range, rangeCode, diagnostics);
     good = good && number.has_value();
@@ -106,9 +106,10 @@ std::optional<double> JsonFields::number(std::string_view key, const NumberRange
   return value ? readNumber(*value, nameOf(key), range, rangeCode_, diagnostics_) : std::nullopt;
 }
 
-std::optional<std::array<double, 3>> JsonFields::triple(std::string_view key, const NumberRange& range) {
+std::optional<std::array<double, 3>> JsonFields::numbers(std::string_view key, const NumberRange& range,
+                                                         std::size_t count) {
   const JsonValue* value = find(key);
-  return value ? readTriple(*value, nameOf(key), range, rangeCode_, diagnostics_) : std::nullopt;
+  return value ? readNumbers(*value, nameOf(key), range, rangeCode_, diagnostics_, count) : std::nullopt;
 }
 
 std::optional<bool> JsonFields::boolean(std::string_view key) {

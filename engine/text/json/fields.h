@@ -26,9 +26,10 @@ struct NumberRange {
 std::optional<double> readNumber(const JsonValue& value, std::string_view name, const NumberRange& range,
                                  Code rangeCode, Diagnostics& diagnostics);
 std::optional<std::string> readText(const JsonValue& value, std::string_view name, Diagnostics& diagnostics);
-std::optional<std::array<double, 3>> readTriple(const JsonValue& value, std::string_view name,
-                                                const NumberRange& range, Code rangeCode,
-                                                Diagnostics& diagnostics);
+// An array of `count` numbers, three or two; the third of two is 0.
+std::optional<std::array<double, 3>> readNumbers(const JsonValue& value, std::string_view name,
+                                                 const NumberRange& range, Code rangeCode,
+                                                 Diagnostics& diagnostics, std::size_t count = 3);
 // False after a W003 that says what was expected.
 bool expectType(const JsonValue& value, std::string_view name, JsonValue::Type type,
                 Diagnostics& diagnostics);
@@ -44,7 +45,8 @@ class JsonFields {
   void require(std::initializer_list<std::string_view> keys);
 
   std::optional<double> number(std::string_view key, const NumberRange& range = {});
-  std::optional<std::array<double, 3>> triple(std::string_view key, const NumberRange& range = {});
+  std::optional<std::array<double, 3>> numbers(std::string_view key, const NumberRange& range = {},
+                                               std::size_t count = 3);
   std::optional<bool> boolean(std::string_view key);
   std::optional<std::string> text(std::string_view key);
   // A member that must be an object or an array, or null.

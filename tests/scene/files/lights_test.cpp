@@ -68,6 +68,20 @@ TEST_CASE("a spot has a direction and two half angles") {
   CHECK(b.cosOuter == doctest::Approx(std::sqrt(0.5)));
 }
 
+TEST_CASE("a lamp with a size is a rectangle with level sides, wide to one side where sizes are unknown") {
+  const Scene scene = readGood(R"({"lamps": {
+    "box": {"position": [0, 3, 0], "candela": 1, "direction": [3, 0, -4], "size": [4, 1], "shadow": true},
+    "roof": {"position": [0, 3, 0], "candela": 1, "direction": [0, -1, 0], "size": [4, 1]}}})");
+  const Lamp &box = scene.lamps.rows()[0], &roof = scene.lamps.rows()[1];
+  CHECK(glm::distance(box.across, glm::vec3(1.6f, 0, 1.2f)) < 1e-6f);
+  CHECK(glm::distance(box.up, glm::vec3(0, 0.5f, 0)) < 1e-6f);
+  CHECK(glm::dot(glm::cross(box.across, box.up), box.direction) < 0);
+  CHECK(box.cosInner == 1);
+  CHECK(std::abs(box.cosOuter) < 1e-6f);
+  CHECK(glm::distance(roof.across, glm::vec3(2, 0, 0)) < 1e-6f);
+  CHECK(glm::distance(roof.up, glm::vec3(0, 0, -0.5f)) < 1e-6f);
+}
+
 TEST_CASE("a grid of lamps takes its colors in turn") {
   const Scene scene = readGood(
       R"({"lamp_grids": {"g": {"count": [3, 1, 2], "spacing": 2, "center": [0, 5, 0], "candela": 10000,
@@ -102,6 +116,23 @@ TEST_CASE("lights that cannot be are errors with a place") {
           .found == "50");
   CHECK(lightsFailureOf(R"({"lamps": {"a": {"position": [0, 0, 0], "candela": 1, "direction": [0, 0, 0]}}})")
             .code == Code::badSceneValue);
+  CHECK(lightsFailureOf(R"({"lamps": {"a": {"position": [0, 0, 0], "candela": 1, "size": [1, 1]}}})")
+            .message.find("a size but no 'direction'") != std::string::npos);
+  for (const char* more : {"\"inner\": 3", "\"outer\": 30", "\"radius\": 0.1"})
+    CHECK(
+        lightsFailureOf(
+            R"({"lamps": {"a": {"position": [0, 0, 0], "candela": 1, "direction": [0, 1, 0], "size": [1, 1], )" +
+            std::string(more) + "}}}")
+            .message.find("a size and also") != std::string::npos);
+  for (const char* size : {"[1]", "[1, 1, 1]", "2"})
+    CHECK(lightsFailureOf(
+              R"({"lamps": {"a": {"position": [0, 0, 0], "candela": 1, "direction": [0, 1, 0], "size": )" +
+              std::string(size) + "}}}")
+              .code == Code::wrongType);
+  CHECK(
+      lightsFailureOf(
+          R"({"lamps": {"a": {"position": [0, 0, 0], "candela": 1, "direction": [0, 1, 0], "size": [1, 0]}}})")
+          .code == Code::badSceneValue);
   const text::Diagnostic many =
       lightsFailureOf(R"({"lamp_grids": {"g": {"count": [65536, 65536, 2], "candela": 1}}})");
   CHECK(many.expected == fmt::format("at most {} in all", kMaxLamps));

@@ -18,7 +18,7 @@ TEST_CASE("present members are read, absent ones are nothing, and neither is an 
   CHECK(fields.number("n") == 2.5);
   CHECK(fields.boolean("b") == true);
   CHECK(fields.text("t") == "x");
-  CHECK(fields.triple("v") == std::array<double, 3>{1, 2, 3});
+  CHECK(fields.numbers("v") == std::array<double, 3>{1, 2, 3});
   CHECK(fields.object("o"));
   CHECK(fields.array("a"));
   CHECK_FALSE(fields.number("absent"));
@@ -35,8 +35,8 @@ TEST_CASE("wrong types, ranges, unknown and missing keys") {
   fields.require({"n", "absent"});
   CHECK_FALSE(fields.number("n"));
   CHECK_FALSE(fields.number("m", {.min = 0, .max = 1}));
-  CHECK_FALSE(fields.triple("v"));
-  CHECK_FALSE(fields.triple("w", {.max = 5}));
+  CHECK_FALSE(fields.numbers("v"));
+  CHECK_FALSE(fields.numbers("w", {.max = 5}));
   fields.number("length");
   fields.finish();
   REQUIRE(diagnostics.size() == 7);

@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint32_t kWidth = 150, kHeight = 77;  // neither is a multiple of a tile
 
 // A wall, panes at two depths, and spheres from specks of less than a pixel to one that reaches beyond the picture; lamps all
-// among them, every third a spot.
+// among them, every third a spot, every seventh a rectangle.
 scene::Scene sceneOf(int lamps, float reach) {
   MeshScene made({0, 0.5, 9}, 60);
   const scene::MeshId square = made.addSquare(9);
@@ -43,6 +43,9 @@ scene::Scene sceneOf(int lamps, float reach) {
       lamp.direction = glm::normalize(glm::vec3(number(-1, 1), -1, number(-1, 1)));
       lamp.cosOuter = number(0.2f, 0.95f);
       lamp.cosInner = (1 + lamp.cosOuter) / 2;
+    } else if (i % 7 == 2) {
+      lamp.across = {number(0.2f, 1), 0, 0};
+      lamp.up = {0, 0, -number(0.2f, 1)};
     }
     made.scene.lamps.add(lamp);
   }
