@@ -1,5 +1,5 @@
 // Light of a rectangle that shines to one side, as bright from everywhere: Lambert's formula for the part above the horizon, and the lobe by a
-// linearly transformed cosine.
+// linearly transformed cosine. One of less than 1/500 of its distance counts as that large.
 // read    ltc    the table of ibl/ltc.comp.glsl, `as linear`
 // The includer has an ambientRadiance(): see shading/cook_torrance.glsl.
 #ifndef SHADING_RECTANGLE_GLSL
@@ -11,46 +11,71 @@
 
 uniform sampler2D ltc;
 
-// What the edge from a to b adds to the integral of the cosine to +Z (Lambert 1760), times 2 pi.
-float edgeOf(vec3 a, vec3 b) {
-  vec3 c = cross(a, b);
-  float sine = length(c);
-  return c.z * (atan(sine, dot(a, b)) / max(sine, 1e-30));
+// What an edge from `a` adds to the integral of the cosine to +Z (Lambert 1760), times 2 pi. The ends of a short one differ by less than
+// they are rounded to.
+float edgeOf(vec3 a, vec3 edge) {
+  vec3 c = cross(a, edge);
+  float sine = max(length(c), 1e-30);
+  return c.z * (atan(sine, dot(a, a + edge)) / sine);
+}
+
+// Leaves of an edge what is above z = 0; false: nothing. `leaves`: where the polygon goes below; `closing`: from there to where it comes back.
+bool clipEdge(inout vec3 a, inout vec3 edge, inout vec3 leaves, inout vec3 closing) {
+  float end = a.z + edge.z, share = a.z / (a.z - end);
+  if (max(a.z, end) <= 0.0) return false;
+  if (a.z <= 0.0) {
+    a += edge * share;
+    edge *= 1.0 - share;
+  } else if (end <= 0.0) {
+    edge *= share;
+    leaves = a + edge;
+  }
+  closing -= edge;
+  return true;
+}
+
+float greatestOf(vec3 v) { return max(v.x, max(v.y, v.z)); }
+
+// In the frame of the surface with V over +X, as a cosine.
+mat3 lobeOf(Response response, float nv) {
+  float rows = float(textureSize(ltc, 0).y), f0 = greatestOf(response.f0), alpha2 = 2.0 * alphaUnderLamps(response.roughness);
+  vec2 at = vec2(sqrt(nv), 0.5 * clamp(response.roughness, 1.0 / rows, 1.0 - 1.0 / rows));
+  // Of a dielectric, by how much its Fresnel term rises.
+  float rise = response.exponent > 0.0 ? 0.0 : clamp((greatestOf(response.f90) - f0) / (24.0 * max(f0, 1e-3)), 0.0, 1.0);
+  vec4 like = mix(textureLod(ltc, at, 0.0), textureLod(ltc, at + vec2(0.0, 0.5), 0.0), rise);
+  float width = like.x * like.x, shift = like.y * sqrt(1.0 - nv * nv) / nv;
+  return mat3(width, 0.0, alpha2 * like.w, 0.0, 1.0, 0.0, width * shift, 0.0, alpha2 * like.z);
 }
 
 // What the rectangle sends towards the eye; 0 beyond its range, which counts from the middle.
 vec3 rectangleRadiance(Lamp self, Point point, Response response) {
   vec3 n = point.normal, v = point.to_eye, to = self.position - point.position;
-  float far2 = dot(to, to) / (self.range * self.range);
+  float away = max(length(to), 1e-4), far2 = away * away / (self.range * self.range), nv = max(point.nv, 1e-4);
   vec3 x = v - n * dot(n, v);
   x = dot(x, x) > 1e-8 ? normalize(x) : normalize(abs(n.y) < 0.9 ? cross(n, vec3(0.0, 1.0, 0.0)) : cross(n, vec3(1.0, 0.0, 0.0)));
-  mat3 frame = transpose(mat3(x, cross(n, x), n));
-  to = frame * to;
+  mat3 frame = transpose(mat3(x, cross(n, x), n)) * (1.0 / away), lobe = lobeOf(response, nv);
   vec3 across = frame * self.across, up = frame * self.up;
-  vec3 corner[4] = vec3[](to + across + up, to - across + up, to - across - up, to + across - up);
-  // The lobe, as a cosine in a space of the same horizon.
-  float nv = max(point.nv, 1e-4);
-  vec3 like = textureLod(ltc, vec2(sqrt(nv), response.roughness), 0.0).xyz;
-  float width = like.x * like.x, shift = like.y * sqrt(1.0 - nv * nv) / nv;
-  mat3 lobe = mat3(width, 0.0, 0.0, 0.0, 1.0, 0.0, width * shift, 0.0, like.z * 2.0 * alphaUnderLamps(response.roughness));
+  across *= max(1.0, 1e-3 / length(across));
+  up *= max(1.0, 1e-3 / length(up));
+  vec3 corner = frame * to + across + up, leaves = vec3(0.0, 0.0, 1.0), closing = vec3(0.0), lobe_leaves = leaves, lobe_closing = closing;
   vec2 share = vec2(0.0);  // of all light that arrives, and of the lobe
-  vec3 leaves = vec3(0.0), enters = vec3(0.0);
   for (int i = 0; i < 5; ++i) {
-    vec3 a = corner[i & 3], b = corner[(i + 1) & 3];
+    vec3 a = corner, edge = ((i & 1) == 0 ? across : up) * (i < 2 ? -2.0 : 2.0);
+    corner += edge;
     if (i == 4) {  // along the horizon
       a = leaves;
-      b = enters;
-    } else if (a.z <= 0.0 && b.z <= 0.0) {
+      edge = closing;
+    } else if (!clipEdge(a, edge, leaves, closing)) {
       continue;
-    } else if (a.z <= 0.0) {
-      a = enters = vec3(mix(a.xy, b.xy, a.z / (a.z - b.z)), 0.0);
-    } else if (b.z <= 0.0) {
-      b = leaves = vec3(mix(a.xy, b.xy, a.z / (a.z - b.z)), 0.0);
     }
-    share += vec2(edgeOf(a, b), edgeOf(lobe * a, lobe * b));
+    share.x += edgeOf(a, edge);
+    a = lobe * a;
+    edge = lobe * edge;
+    if (clipEdge(a, edge, lobe_leaves, lobe_closing)) share.y += edgeOf(a, edge);
   }
+  share.y += edgeOf(lobe_leaves, lobe_closing);
   share = max(share, vec2(0.0)) * (0.5 / kPi);
-  vec3 shines = self.intensity * (clamp(1.0 - far2 * far2, 0.0, 1.0) / (4.0 * length(cross(across, up))));
+  vec3 shines = self.intensity * (clamp(1.0 - far2 * far2, 0.0, 1.0) / (4.0 * away * away * length(cross(across, up))));
   Ambient light = noAmbient();
   light.reflected = shines * share.y * response.single;
   light.mean = shines * share.x;

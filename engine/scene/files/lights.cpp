@@ -22,6 +22,7 @@ constexpr NumberRange kNits{.min = 1e-3, .max = 1e9};
 constexpr NumberRange kPhotometric{.min = 0, .max = 1e12};
 constexpr NumberRange kSunAngle{.min = 0, .max = 90};
 constexpr NumberRange kConeAngle{.min = 0, .max = 90};
+constexpr NumberRange kSide{.min = 1e-6, .max = 1e9};
 
 class LightReader {
  public:
@@ -86,7 +87,7 @@ class LightReader {
     fields.read("shadow", lamp.shadow);
     const bool aimed = fields.find("direction") != nullptr;
     glm::vec2 size(0);
-    fields.read("size", kSize, size);
+    fields.read("size", kSide, size);
     fields.finish();
     const bool sized = size.x > 0, cone = inner || outer;
     if (sized && (cone || lamp.radius > 0)) diagnostics_.error(say::sizeAndCone, value.place, what);
