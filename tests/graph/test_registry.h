@@ -107,7 +107,7 @@ inline std::vector<ImportType> testImports() {
       {.name = "lamps",
        .kind = ImportKind::buffer,
        .doc = "",
-       .arguments = {argument("casting", Value::boolean(false))},
+       .arguments = {argument("casting", Value::boolean(false)), argument("sized", Value::boolean(false))},
        .views = true},
       {.name = "meshes", .kind = ImportKind::buffer, .doc = "", .arguments = {drawListArgument()}},
       {.name = "materials", .kind = ImportKind::buffer, .doc = ""},
