@@ -15,7 +15,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f) uniform writeonly image2D table;
 
 const float kPi = 3.14159265;
-const int kHeights = 12, kAzimuths = 16, kRounds = 12;
+const int kHeights = 12, kAzimuths = 16, kRounds = 8;
 const float kNode[12] = float[12](
   0.0092196829, 0.0479413718, 0.1150486629, 0.2063410229, 0.3160842505, 0.4373832957, 0.5626167043,
   0.6839157495, 0.7936589771, 0.8849513371, 0.9520586282, 0.9907803171);
@@ -31,7 +31,7 @@ void main() {
   float a2 = alpha * alpha, sv = sqrt(1.0 - nv * nv), seen = sqrt(nv * nv * (1.0 - a2) + a2);
   vec2 v = normalize(vec2(alpha * sv, nv));  // where the surface is a hemisphere
   // Logarithm of `width`, `shift`, logarithm of `height`, `tilt`; what the best ones' error and its derivatives are.
-  vec4 best, now = vec4(2.0 * log(seen), (1.0 - a2) * sv / (nv + alpha), log(2.0 * alpha), 0.0), slope;
+  vec4 best, now = vec4(2.0 * log(seen), (1.0 - a2) * sv / (nv + alpha), log(1.4 * alpha), 0.0), slope;
   mat4 bend;
   float whole = 0.0, least = 1e30, damping = 0.5;
   for (int round = 0; round <= kRounds; ++round) {  // the first one measures the whole lobe
