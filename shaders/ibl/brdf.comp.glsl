@@ -16,18 +16,13 @@
 //
 // Of four rows (where there are 512) one is integrated; the others are interpolated by the cubic through the four nearest (Catmull and Rom,
 // 1974). The table is even in the roughness and continues beyond 1, so that the first and the last rows have neighbors.
+#include "gauss_legendre.glsl"
 #include "roughness_level.glsl"
 
 layout(local_size_x = 8, local_size_y = 16) in;
 layout(rgba16f) uniform writeonly image2D table;
 
 const int kHeights = 12, kAzimuths = 16;
-const float kNode[12] = float[12](
-  0.0092196829, 0.0479413718, 0.1150486629, 0.2063410229, 0.3160842505, 0.4373832957, 0.5626167043,
-  0.6839157495, 0.7936589771, 0.8849513371, 0.9520586282, 0.9907803171);
-const float kWeight[12] = float[12](
-  0.0235876682, 0.0534696630, 0.0800391643, 0.1015837134, 0.1167462683, 0.1245735229, 0.1245735229,
-  0.1167462683, 0.1015837134, 0.0800391643, 0.0534696630, 0.0235876682);
 // Cosine and sine of the first midpoint, and of the angle from one to the next: in software an array costs more than a rotation.
 const vec2 kFirst = vec2(cos(0.03125 * 3.14159265), sin(0.03125 * 3.14159265));
 const vec2 kStep = vec2(cos(0.0625 * 3.14159265), sin(0.0625 * 3.14159265));

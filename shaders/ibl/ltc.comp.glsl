@@ -9,6 +9,7 @@
 //
 // The integral of the squared difference is least, by the method of Levenberg and Marquardt. Directions are those of the normals visible
 // from V, 12 Gauss-Legendre nodes times 16 midpoints as in brdf.comp.glsl.
+#include "gauss_legendre.glsl"
 #include "roughness_level.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -16,12 +17,6 @@ layout(rgba16f) uniform writeonly image2D table;
 
 const float kPi = 3.14159265;
 const int kHeights = 12, kAzimuths = 16, kRounds = 8;
-const float kNode[12] = float[12](
-  0.0092196829, 0.0479413718, 0.1150486629, 0.2063410229, 0.3160842505, 0.4373832957, 0.5626167043,
-  0.6839157495, 0.7936589771, 0.8849513371, 0.9520586282, 0.9907803171);
-const float kWeight[12] = float[12](
-  0.0235876682, 0.0534696630, 0.0800391643, 0.1015837134, 0.1167462683, 0.1245735229, 0.1245735229,
-  0.1167462683, 0.1015837134, 0.0800391643, 0.0534696630, 0.0235876682);
 
 void main() {
   ivec2 size = imageSize(table), texel = ivec2(gl_GlobalInvocationID.xy);
