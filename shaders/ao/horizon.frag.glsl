@@ -54,45 +54,38 @@ void main() {
     if (share < 1e-4) continue;
     float cos_tilt = clamp(dot(projected, v) / share, -1.0, 1.0);
     float tilt = (dot(along - dot(along, v) * v, projected) < 0.0 ? -1.0 : 1.0) * acos(cos_tilt);
-    float lowest[2] = float[2](cos(tilt + 0.5 * kPi), cos(tilt - 0.5 * kPi));
-    float horizon[2] = lowest, back[2] = lowest, strongest[2] = float[2](0.0, 0.0);
     vec2 reach = along.xy * focal * (radius / -place.z);  // pixels
-    float pixels = length(reach);
+    float pixel_of_reach = 1.0 / max(length(reach), 1e-3), seen = 0.0;
     for (int side = 0; side < 2; ++side) {
-      vec2 way = side == 0 ? reach : -reach;
+      // Angles from the view direction are positive along the slice; the paper's h1 is on the negative side.
+      float way = side == 0 ? 1.0 : -1.0, lowest = -way * sin(tilt), horizon = lowest, back = lowest, strongest = 0.0;
       for (int j = 0; j < steps; ++j) {
         float t = (float(j) + start) / float(steps);
-        float far = max(t * t, (float(j) + 1.0) / max(pixels, 1e-3));  // dense near the pixel, never the pixel itself
-        vec2 to = vec2(pixel) + 0.5 + way * far;
-        ivec2 at = ivec2(floor(to));
-        if (any(lessThan(at, ivec2(0))) || any(greaterThan(at, last))) break;
+        float far = max(t * t, (float(j) + 1.0) * pixel_of_reach);  // dense near the pixel, never the pixel itself
+        ivec2 to = ivec2(floor(vec2(pixel) + 0.5 + way * far * reach)), at = clamp(to, ivec2(0), last);
         float there = depthOfOccluder(at);
-        if (there <= 0.0) continue;
-        vec3 delta = placeAt(at, there) - place;
+        vec3 delta = placeAt(at, max(there, 1e-12)) - place;  // the sky is far
         float distance2 = dot(delta, delta), per_length = inversesqrt(max(distance2, 1e-20));
-        if (dot(delta, n) * per_length < kTangent) continue;
         float weight = clamp((radius - distance2 * per_length) / (kSoftEnd * radius), 0.0, 1.0);
-        horizon[side] = max(horizon[side], mix(lowest[side], dot(delta, v) * per_length, weight));
+        if (at != to || dot(delta, n) * per_length < kTangent) weight = 0.0;
+        horizon = max(horizon, mix(lowest, dot(delta, v) * per_length, weight));
 #ifdef HAS_BACKS
-        if (weight <= 0.0) continue;
         // The end of the interval: the lowest back face; a fading occluder counts by its share.
-        float behind = texelFetch(backs, at, 0).r, end = lowest[side];
+        float behind = texelFetch(backs, at, 0).r, end = lowest;
         if (behind > 0.0 && behind <= there) end = max(end, dot(normalize(placeAt(at, behind) - place), v));
-        end = mix(lowest[side], end, weight);
-        float share_of_other = min(weight, strongest[side]) / max(weight, strongest[side]);
-        back[side] = weight >= strongest[side] ? min(end, mix(end, back[side], share_of_other))
-                                               : min(back[side], mix(back[side], end, share_of_other));
-        strongest[side] = max(strongest[side], weight);
+        end = mix(lowest, end, weight);
+        float share_of_other = min(weight, strongest) / max(max(weight, strongest), 1e-6);
+        bool stronger = weight >= strongest;
+        float of_stronger = stronger ? end : back, of_other = stronger ? back : end;
+        if (weight > 0.0) back = min(of_stronger, mix(of_stronger, of_other, share_of_other));
+        strongest = max(strongest, weight);
 #endif
       }
-    }
-    // Angles from the view direction, positive along the slice; the paper's h1 is on the negative side.
-    float right = acos(clamp(horizon[0], -1.0, 1.0)), left = -acos(clamp(horizon[1], -1.0, 1.0));
-    float seen = arc(right, tilt, cos_tilt) + arc(left, tilt, cos_tilt);
+      seen += arc(way * acos(clamp(horizon, -1.0, 1.0)), tilt, cos_tilt);
 #ifdef HAS_BACKS
-    if (strongest[0] > 0.0) seen += arc(tilt + 0.5 * kPi, tilt, cos_tilt) - arc(acos(clamp(back[0], -1.0, 1.0)), tilt, cos_tilt);
-    if (strongest[1] > 0.0) seen += arc(tilt - 0.5 * kPi, tilt, cos_tilt) - arc(-acos(clamp(back[1], -1.0, 1.0)), tilt, cos_tilt);
+      if (strongest > 0.0) seen += arc(tilt + way * 0.5 * kPi, tilt, cos_tilt) - arc(way * acos(clamp(back, -1.0, 1.0)), tilt, cos_tilt);
 #endif
+    }
     visibility += share * seen;
     whole += share * (cos_tilt + tilt * sin(tilt));  // without occluders; its mean over all directions is 1
   }

@@ -211,9 +211,9 @@ TEST_CASE(
           " of the floor: ", floor, "; ripple ", ripple / floors);
   REQUIRE(counts[0] > 1000);
   REQUIRE(counts[1] > 1000);
-  CHECK(helmets < 0.095);
+  CHECK(helmets < 0.067);
   CHECK(floor < 0.016);
-  CHECK(ripple / floors < 0.023);
+  CHECK(ripple / floors < 0.021);
 }
 
 }  // namespace deferred_occlusion_rays_test
