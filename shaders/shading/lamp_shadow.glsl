@@ -1,6 +1,6 @@
 // Visibility of a lamp from a point, by a cube map of reversed-Z depth per lamp: near_plane / distance along the face's axis.
 // Slot: lamp_maps `as compare`, a cube array, by which 1 is lit.
-// Five linear lookups, one texel apart, each compared with the depth of the receiver's plane in its direction.
+// Five linear lookups, one texel apart. The point is moved along the normal, by more than its plane changes over them.
 #ifndef SHADING_LAMP_SHADOW_GLSL
 #define SHADING_LAMP_SHADOW_GLSL
 
@@ -14,16 +14,15 @@ float seenOfLamp(Lamp self, vec3 position, vec3 n) {
   vec3 from = position - self.position;
   float texel = 2.0 / float(textureSize(lamp_maps, 0).x), along = dot(from, n), away = length(from);
   float slant = sqrt(max(1.0 - along * along / (away * away), 0.0));
-  from += n * (axisOf(from) * texel * (1.5 + 1.5 * slant));
-  along = dot(from, n);
+  texel *= axisOf(from);
+  from += n * (texel * (1.5 + 1.5 * slant));
   vec3 side = normalize(abs(from.y) < 0.7 * away ? cross(from, vec3(0.0, 1.0, 0.0)) : cross(from, vec3(1.0, 0.0, 0.0)));
   vec3 up = normalize(cross(side, from));
   float hidden = 0.0;
   for (int i = 0; i < 5; ++i) {
     vec3 beside = (i & 1) == 0 ? side : up;  // side, up, and opposite to them
-    vec3 to = from + (i == 4 ? vec3(0.0) : axisOf(from) * texel * (i < 2 ? beside : -beside));
-    float plane = dot(to, n), reach = plane * along > 0.0 ? clamp(along / plane, 0.5, 2.0) : 1.0;  // to the receiver's plane
-    hidden += 1.0 - texture(lamp_maps, vec4(to, float(self.shadow)), self.near_plane / (reach * axisOf(to)) * (1.0 + 1e-4));
+    vec3 to = from + (i == 4 ? vec3(0.0) : texel * (i < 2 ? beside : -beside));
+    hidden += 1.0 - texture(lamp_maps, vec4(to, float(self.shadow)), self.near_plane / axisOf(to) * (1.0 + 1e-4));
   }
   return 1.0 - 0.2 * hidden;
 }
