@@ -403,6 +403,7 @@ const char* nameOf(JsonValue::Type type) {
 std::string describe(const JsonValue& value) {
   if (value.is(Type::boolean)) return value.flag ? "true" : "false";
   if (value.is(Type::number)) return fmt::format("the number {}", value.number);
+  if (value.is(Type::array)) return fmt::format("an array of length {}", value.items.size());
   return value.is(Type::string) ? fmt::format("the string \"{}\"", shortened(value.text))
                                 : nameOf(value.type);
 }
