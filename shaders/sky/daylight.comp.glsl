@@ -94,6 +94,7 @@ void main() {
   float haze = 0.01 + 0.01 * turbidity;
 
   vec3 sum = vec3(0.0), sum_rest = vec3(0.0);
+  float weights = 0.0;
 #ifdef HAS_REST
   ivec2 size = imageSize(rest);  // nobody reads `radiance` where only the background is drawn
 #else
@@ -109,17 +110,19 @@ void main() {
     vec3 lobe = peak * exp(-gamma * gamma / kWidth2) * step(gamma, 0.15) * smoothstep(-0.011, 0.007, direction.y);
     vec3 without = mix(ground, sky, exp(min(direction.y, 0.0) / haze)), color = without + lobe;
     imageStore(radiance, texel, vec4(color, 0.0));
-    sum += color;
+    float weight = length(direction.xz);  // of its share of the sphere
+    weights += weight;
+    sum += weight * color;
 #ifdef HAS_REST
     imageStore(rest, texel, vec4(without, 0.0));
-    sum_rest += without;
+    sum_rest += weight * without;
 #endif
   }
 #ifdef HAS_RADIANCE_1
-  imageStore(radiance_1, corner / 2, vec4(0.25 * sum, 1.0));
+  imageStore(radiance_1, corner / 2, vec4(sum / weights, 1.0));
 #endif
 #ifdef HAS_REST_1
-  imageStore(rest_1, corner / 2, vec4(0.25 * sum_rest, 1.0));
+  imageStore(rest_1, corner / 2, vec4(sum_rest / weights, 1.0));
 #endif
 
   if (corner != ivec2(0)) return;

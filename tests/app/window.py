@@ -162,8 +162,8 @@ def copy_of_tree(folder):
     """What a viewer reads, to be changed. The maps of the environment are small, so that they are made in little time."""
     for part in ("graphs", "shaders", "scenes", "materials"):
         shutil.copytree(TOP / part, folder / part)
-    for name, size, small in (("ibl", '"size": 512', '"size": 32'), ("ibl", "[1024, 512] /", "[128, 64] /"),
-                              ("daylight", '"size": [1024, 512]', '"size": [128, 64]')):
+    for name, size, small in (("ibl", '"size": 512', '"size": 32'), ("ibl", '"size": [1024, 512]', '"size": [128, 64]'),
+                              ("daylight", '"size": [512, 256]', '"size": [128, 64]')):
         edit(folder / f"graphs/{name}.json", re.escape(size), small)
 
 

@@ -45,7 +45,7 @@ WANTED = OPTIONS.part or list(PARTS)
 CTEST = "ctest"  # comes with cmake
 WEFT = BINARY / "app/weft"
 # The maps that reflections are made with, in the copy of the tree: nobody looks at pictures of snippets.
-SMALL_MAPS = (("ibl.json", '"size": 512', '"size": 32'), ("ibl.json", "[1024, 512] /", "[128, 64] /"))
+SMALL_MAPS = (("ibl.json", '"size": 512', '"size": 32'), ("ibl.json", '"size": [1024, 512]', '"size": [128, 64]'))
 FENCE = re.compile(r"^```([^\n`]*)\n(.*?)^```[ ]*$", re.M | re.S)
 LANGUAGES = {"sh", "json", "glsl", "cpp", "cmake", "text"}
 DATA = ("graphs", "shaders", "materials", "scenes", "docs", "tests/docs", "tests/golden", "tests/imports", "tests/convert", "tests/app/trials",

@@ -35,8 +35,8 @@ std::string withSmallMaps(const std::string& graph) {
     std::filesystem::copy(sourcePath("graphs"), folder.path() / "graphs",
                           std::filesystem::copy_options::recursive);
     size("ibl.json", "\"size\": 512", "\"size\": 32");
-    size("ibl.json", "[1024, 512] /", "[128, 64] /");
-    size("daylight.json", "\"size\": [1024, 512]", "\"size\": [128, 64]");
+    size("ibl.json", "\"size\": [1024, 512]", "\"size\": [128, 64]");
+    size("daylight.json", "\"size\": [512, 256]", "\"size\": [128, 64]");
     return true;
   }();
   return made && graph.starts_with("graphs/") ? folder.at(graph) : graph;
