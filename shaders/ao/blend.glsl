@@ -5,14 +5,14 @@
 #include "surface.glsl"
 
 struct Surface {
-  vec3 place, normal;  // in view space
-  vec3 plane;          // the normal over the thickness of the tangent plane
+  vec3 place, plane;  // in view space; the normal over the thickness of the tangent plane
+  vec3 normal;        // in the world
 };
 
 // A hundredth of the radius thick, and the width of two pixels there; distances are stored as halves.
 Surface surfaceAt(ivec2 pixel, float z, float radius) {
-  vec3 place = placeAt(pixel, z), n = facing(pixel);
-  return Surface(place, n, n / (0.01 * radius - place.z * (2.0 / focalPixels().y + 1e-3)));
+  vec3 place = placeAt(pixel, z), n = worldNormal(pixel);
+  return Surface(place, mat3(view) * n / (0.01 * radius - place.z * (2.0 / focalPixels().y + 1e-3)), n);
 }
 
 // Weight of a neighbor by its distance from the tangent plane, and by its normal. One that looks elsewhere counts a little: the mean over
@@ -20,7 +20,7 @@ Surface surfaceAt(ivec2 pixel, float z, float radius) {
 float onSurface(Surface surface, ivec2 pixel, float neighbor_distance) {
   if (neighbor_distance <= 0.0) return 0.0;
   float off = dot(axisRay(vec2(pixel) + 0.5) * neighbor_distance - surface.place, surface.plane);
-  float alike = max(dot(facing(pixel), surface.normal), 0.0);
+  float alike = max(dot(worldNormal(pixel), surface.normal), 0.0);
   for (int i = 0; i < 5; ++i) alike *= alike;
   return max(1.0 - off * off, 0.0) * mix(0.05, 1.0, alike);
 }

@@ -33,6 +33,7 @@ vec2 focalPixels() { return 0.5 * vec2(projection[0].x, projection[1].y) * vec2(
 
 ivec2 pixelOf(ivec2 half_texel) { return min(half_texel * 2, textureSize(depth, 0) - 1); }
 
-vec3 facing(ivec2 pixel) { return mat3(view) * decodeNormal(texelFetch(normal, pixel, 0).rg); }
+vec3 worldNormal(ivec2 pixel) { return decodeNormal(texelFetch(normal, pixel, 0).rg); }
+vec3 facing(ivec2 pixel) { return mat3(view) * worldNormal(pixel); }
 
 #endif
