@@ -3,11 +3,13 @@
 //         mirror_depth, mirror_nearest, mirror_backs?   see reflections/trace.glsl
 //         probe_light?, probe_depth, probe_backs, probe_place   see reflections/probe.glsl: where the picture does not show what a ray meets
 //         specular      see shading/environment.glsl
+//         air?          fog between the surface and what it reflects, see fog/fog.glsl
 // Behind shading/environment.glsl and shading/material.glsl.
 #ifndef REFLECTIONS_LOBE_GLSL
 #define REFLECTIONS_LOBE_GLSL
 
 #include "common/view.glsl"
+#include "fog/sky.glsl"
 #include "reflections/spread.glsl"
 #include "shading/point.glsl"
 #ifdef HAS_MIRROR_LIGHT
@@ -38,6 +40,13 @@ vec3 prefiltered(vec3 direction, float level, int levels) {
   return sampleEquirect(specular, equirectUv(direction) - vec2(sky_turn, 0.0), lookup).rgb;
 }
 
+vec3 fogged(vec3 light, vec3 from, vec3 direction, float away) {
+#ifdef HAS_AIR
+  light = mix(fog_light.rgb, light, throughFog(from.y - eye.y, direction.y * away, away));
+#endif
+  return light;
+}
+
 // What one ray meets, times its share, which is alpha. `part`: alpha of the ray's cone. `away`: how far it is.
 vec4 sceneAlong(vec3 from, vec3 direction, float part, out float away) {
   vec4 seen = vec4(0.0);
@@ -50,7 +59,7 @@ vec4 sceneAlong(vec3 from, vec3 direction, float part, out float away) {
     away = distance(met, from);
     vec4 light = textureLod(mirror_light, hit.xy / viewport, log2(max(2.0 * part * away / pixelWidth(met), 1.0)));
     vec2 edge = clamp((0.5 - abs(hit.xy / viewport - 0.5)) * 50.0, 0.0, 1.0);
-    seen = edge.x * edge.y * min(light.a * 64.0, 1.0) * vec4(light.rgb / max(light.a, 1e-4), 1.0);
+    seen = edge.x * edge.y * min(light.a * 64.0, 1.0) * vec4(fogged(light.rgb / max(light.a, 1e-4), from, direction, away), 1.0);
   }
 #endif
 #ifdef HAS_PROBE_LIGHT
@@ -58,7 +67,7 @@ vec4 sceneAlong(vec3 from, vec3 direction, float part, out float away) {
     float other_away;
     vec4 other = probeAlong(from, direction, part, other_away);
     away = mix(other_away, away, seen.a);
-    seen += (1.0 - seen.a) * other.a * vec4(other.rgb, 1.0);
+    seen += (1.0 - seen.a) * other.a * vec4(fogged(other.rgb, from, direction, other_away), 1.0);
   }
 #endif
   return seen;
@@ -104,7 +113,11 @@ vec4 reflectedPicture(Point point, Response response, int set, int sets, int ray
     // The map is that of the whole lobe, of which this ray hides a part that may be brighter or darker.
     if (spread > 0.0) {
       if (!found) mean = prefiltered(axis, levelOfAlpha(alpha, levels), levels);
-      seen.rgb += seen.a * spread * (mean - prefiltered(l, levelOfAlpha(part, levels), levels));
+      vec3 apart = mean - prefiltered(l, levelOfAlpha(part, levels), levels);
+#ifdef HAS_AIR
+      apart *= throughFogOfSky(axis, from.y - eye.y, alpha);
+#endif
+      seen.rgb += seen.a * spread * apart;
     }
     found = true;
     sum += weight * seen;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -40,7 +41,7 @@ struct Shown {
   std::vector<float> off, on, bare, occluded;  // `bare`: with what they reflect disabled
 };
 
-Shown take(const scene::Scene& made, std::uint32_t width, std::uint32_t height) {
+Shown take(const scene::Scene& made, std::uint32_t width, std::uint32_t height, const char* fog = "false") {
   runtime::test::Stage stage("graphs/deferred.json", width, height);
   stage.world.setScene(made);
   const auto map = makeEnvironment([](int x, int y) {
@@ -50,7 +51,7 @@ Shown take(const scene::Scene& made, std::uint32_t width, std::uint32_t height) 
   });
   stage.world.setEnvironment(std::make_shared<const assets::EnvironmentMap>(assets::toEnvironmentMap(*map)));
   const auto draw = [&](const char* reflections, const char* ao) {
-    stage.settings.sets = {{"reflections", reflections}, {"ao", ao}};
+    stage.settings.sets = {{"reflections", reflections}, {"ao", ao}, {"fog", fog}, {"fog_density", "0.05"}};
     REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
     stage.run();
     return stage.read("hdr");
@@ -156,6 +157,27 @@ TEST_CASE("a mirror that faces the camera shows what is far behind the camera, w
   const Error error = errorsOf(tracer, shown, kWidth, kHeight, 1)[0];
   MESSAGE(error.on, " of 255, with the map alone ", error.off, ", ", error.count, " pixels");
   CHECK(error.on < 0.2);
+
+  // In fog, by Beer and Lambert's law along the way from the eye to the mirror and along the one from there to the wall.
+  const Shown misty = take(made.scene, kWidth, kHeight, "true");
+  const double fog[3] = {0.8, 0.85, 0.9}, wall[3] = {6, 1.5, 1};
+  double worst = 0;
+  for (std::uint32_t y = 2; y + 2 < kHeight; ++y)
+    for (std::uint32_t x = 2; x + 2 < kWidth; ++x) {
+      if (!tracer.pixel(x, y, 1).metal) continue;
+      const double step = 2 * std::tan(std::numbers::pi / 9) / kHeight;
+      const double longer = std::sqrt(1 + std::pow(step * (x + 0.5 - kWidth / 2.0), 2) +
+                                      std::pow(step * (y + 0.5 - kHeight / 2.0), 2));
+      const double there = std::exp(-0.05 * 5.95 * longer), onward = std::exp(-0.05 * 15.45 * longer);
+      for (int c = 0; c < 3; ++c) {
+        const std::size_t at = 4 * (std::size_t{y} * kWidth + x) + static_cast<std::size_t>(c);
+        const double clear = static_cast<double>(shown.on[at]), metal = clear / wall[c];
+        const double right = fog[c] + there * (onward * clear + (1 - onward) * metal * fog[c] - fog[c]);
+        worst = std::max(worst, std::abs(static_cast<double>(misty.on[at]) - right));
+      }
+    }
+  MESSAGE("in fog, worst ", worst);
+  CHECK(worst < 0.05);
 }
 
 }  // namespace deferred_mirrors_test
