@@ -31,7 +31,7 @@ STRIPS = [
      [*PLAIN, "--set", "ao=false", "--set", "dof=false"]),
     ("occlusion", "graphs/deferred.json", ['{ "include":', ' "effects/ambient_occlusion.json",', '  "enabled": "$ao" }'], ["--present", "visible"]),
     ("lens", "graphs/post.json", ['{ "include":', '  "effects/depth_of_field.json",', '  "enabled": "$dof" }'], [*PLAIN, "--set", "ao=true"]),
-    ("film", "graphs/presets/dusk.json", ['{ "curve": "agx",', '  "contrast": 1.3,', '  "saturation": 1.3,', '  "vignette": true }'], []),
+    ("film", "graphs/presets/dusk.json", ['{ "curve": "agx",', '  "grading": true,', '  "contrast": 1.3,', '  "saturation": 1.3, … }'], []),
 ]
 
 
