@@ -29,7 +29,8 @@ Ambient ambientAmongSpheres(NeighborList list, Occlusion occlusion, Point point,
   float surface_below = surfaceOf(plane, point.position);
 #ifdef HAS_SPECULAR
   vec3 axis = overGround(lobeAxis(point, response), occlusion.lobe.width, ground.surface);
-  vec3 sky = reflectedEnvironment(point, response, lobe, axis);
+  // Of a lobe that hardly sees the sky, all of the sky is in its tail.
+  vec3 sky = mix(reflectedEnvironment(point, response, lobe, axis), ground_light.sky, ground.surface * smoothstep(0.75, 1.0, ground.share));
   vec3 below = groundRadiance(plane, ground_light, sky, ground.surface, ground.hidden, ground.lights);
   vec3 occluders = occluderRadiance(occlusion, point, surface, radius, lobe, ground_light);
   vec3 behind = mix(sky, below, ground.share);
