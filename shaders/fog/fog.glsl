@@ -2,6 +2,7 @@
 // Lambert), in air whose density falls with height (Wenzel, "Real-time atmospheric effects in games", SIGGRAPH 2006). Surfaces are fogged
 // while they are drawn, so that a partly covered pixel blends fogged colors.
 // read    air?   buffer of fog/air.comp.glsl, `as uniform`; without it there is no fog, and no code for it
+// define  FOG_FROM_EYE   false: none between the eye and the surface, only before what it reflects (default true)
 #ifndef FOG_FOG_GLSL
 #define FOG_FOG_GLSL
 
@@ -21,7 +22,11 @@ float throughFog(float above, float up, float far) {
 }
 
 // Along the world vector `ray` from the eye.
+#if defined FOG_FROM_EYE && !FOG_FROM_EYE
+float throughFog(vec3 ray) { return 1.0; }
+#else
 float throughFog(vec3 ray) { return throughFog(0.0, ray.y, length(ray)); }
+#endif
 #endif
 
 #endif
