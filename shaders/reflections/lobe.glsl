@@ -40,6 +40,7 @@ vec3 prefiltered(vec3 direction, float level, int levels) {
   return sampleEquirect(specular, equirectUv(direction) - vec2(sky_turn, 0.0), lookup).rgb;
 }
 
+// Light from `away` along a ray, behind the fog on its way.
 vec3 fogged(vec3 light, vec3 from, vec3 direction, float away) {
 #ifdef HAS_AIR
   light = mix(fog_light.rgb, light, throughFog(from.y - eye.y, direction.y * away, away));
