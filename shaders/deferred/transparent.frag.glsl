@@ -30,7 +30,7 @@ void main() {
   MeshSurface self = meshSurface();
 #ifdef HAS_RADIANCE
 #if LAYERED && defined HAS_MATERIAL_LAYERS
-  if (layers_of[row].layered == 0u) discard;
+  if (layers_of[row].layered == 0u && !gl_HelperInvocation) discard;
   self.alpha = 1.0;
 #endif
   float visible = self.occlusion;
@@ -46,4 +46,5 @@ void main() {
 #ifdef HAS_VELOCITY
   velocity = meshVelocity(viewport);
 #endif
+  if (hidden) discard;
 }

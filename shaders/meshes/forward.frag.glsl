@@ -48,4 +48,5 @@ void main() {
 #ifdef HAS_THING
   thing = mesh_thing;
 #endif
+  if (hidden) discard;
 }

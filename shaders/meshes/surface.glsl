@@ -7,6 +7,7 @@
 #define MESHES_SURFACE_GLSL
 
 #include "scene/materials.glsl"
+#include "shading/point.glsl"
 
 #ifndef SPECULAR_AA
 #define SPECULAR_AA 1
@@ -61,7 +62,10 @@ vec4 mapAt(uint map, MapPlace place) {
   return sampleMap(map, place.uv, place.dx, place.dy);
 }
 
-// Discards the fragment in a hole of a mask, and on the back of a single-sided material: draw with "cull": "none".
+bool hidden = false;  // in a hole of a mask
+
+// Discards the fragment in a hole of a mask (of what sees the scene the includer does, at its end: pixels beside each other share what they see),
+// and on the back of a single-sided material: draw with "cull": "none".
 MeshSurface meshSurface() {
   Material self = material[row];
   MapPlace place = mapPlace();
@@ -84,7 +88,8 @@ MeshSurface meshSurface() {
 #if SPECULAR_AA
   vec3 n_dx = dFdx(n), n_dy = dFdy(n);
 #endif
-  if (color.a < self.alpha_cutoff || (self.double_sided == 0u && !gl_FrontFacing)) discard;
+  hidden = color.a < self.alpha_cutoff;
+  if ((hidden && SEES_SCENE == 0) || (self.double_sided == 0u && !gl_FrontFacing && !gl_HelperInvocation)) discard;
   if (!gl_FrontFacing) n = -n;
   MeshSurface surface;
   surface.normal = n;

@@ -82,34 +82,38 @@ vec4 reflectedPicture(Point point, Response response, int set, int sets, int ray
   if (fade <= 0.0) return vec4(0.0);
   vec3 n = point.normal, v = point.to_eye, axis = normalize(mix(point.mirror, n, response.lean));
   vec3 x = normalize(abs(n.y) < 0.9 ? cross(n, vec3(0.0, 1.0, 0.0)) : cross(n, vec3(1.0, 0.0, 0.0))), y = cross(n, x);
-  mat3 frame = mat3(x, y, n);
+  mat3 basis = mat3(x, y, n);
   float spread = raySpread(response.roughness), nv = max(point.nv, 1e-3), a2 = alpha * alpha;
   vec3 seen_from = vec3(dot(v, x), dot(v, y), nv);
   vec3 from = point.position + n * pixelWidth(point.position);
   if (spread == 0.0) rays = 1;
+  // With jitter, frames are averaged: each has other directions.
+  float turn = jitter == vec2(0.0) ? 0.0 : 0.618034 * float(frame & 15u);
   // A ray stands for its part of the lobe. These overlap, since few meet a glint, which is bright.
-  float part = alpha * mix(1.0, min(2.5 * inversesqrt(float(rays * sets)), 1.0), spread);
+  float part = alpha * mix(1.0, min(3.5 * inversesqrt(float(rays * sets)), 1.0), spread);
   int levels = textureQueryLevels(specular);
   vec3 mean = vec3(0.0);
   bool found = false;
   vec4 sum = vec4(0.0);
   float whole = 0.0;
   for (int i = 0; i < rays; ++i) {
-    int j = i + rays * set;
+    int j = sets * i + set;
     vec3 l = axis;
-    float weight = 1.0;
+    float weight = 1.0, cone = part;
     if (spread > 0.0) {
-      vec2 u = vec2((float(j) + 0.5) / float(rays * sets), float(bitfieldReverse(uint(j))) * 2.3283064365386963e-10);
+      vec2 u = vec2((float(j) + 0.5) / float(rays * sets), fract(0.618034 * float(j) + turn));
+      // Rays are far apart in the lobe's tail.
+      cone = min(part / (1.0 - spread * u.x), 4.0 * alpha);
       vec3 h = visibleHalf(seen_from, alpha, u), reflected = reflect(-seen_from, h);
       // Its share of single scattering: masking from both sides over masking from the eye's.
       float nl = max(reflected.z, 0.0), lv = sqrt(nv * nv * (1.0 - a2) + a2), ll = sqrt(nl * nl * (1.0 - a2) + a2);
       weight = nl > 0.0 ? nl * (nv + lv) / (nl * lv + nv * ll) : 0.0;
-      l = normalize(mix(axis, frame * reflected, spread));
+      l = normalize(mix(axis, basis * reflected, spread));
     }
     whole += weight;
     if (weight <= 0.0 || dot(l, n) <= 0.0) continue;
     float away;
-    vec4 seen = sceneAlong(from, l, part, away);
+    vec4 seen = sceneAlong(from, l, cone, away);
     if (seen.a <= 0.0) continue;
     // The map is that of the whole lobe, of which this ray hides a part that may be brighter or darker.
     if (spread > 0.0) {

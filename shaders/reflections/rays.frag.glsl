@@ -32,7 +32,5 @@ void main() {
   vec4 stored = texelFetch(metallic_roughness, pixel, 0);
   Point point = pointAt(positionOfDepth(uv, texelFetch(depth, pixel, 0).r), decodeNormal(turned), 1.0);
   Response response = modelResponse(Surface(vec3(1.0), stored.r, stored.g), stored.a > 0.0 ? decodeExponent(stored.a) : 0.0, point.nv);
-  // With jitter, frames are averaged: each has other directions here.
-  int turn = jitter == vec2(0.0) ? 0 : 5 * int(frame & 15u), set = ((((pixel.x + pixel.y) & 3) << 2) + (pixel.x & 3) + turn) & 15;
-  mirrored = reflectedPicture(point, response, set, 16, rays, reach);
+  mirrored = reflectedPicture(point, response, (((pixel.x + pixel.y) & 3) << 2) + (pixel.x & 3), 16, rays, reach);
 }

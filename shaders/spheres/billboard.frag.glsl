@@ -40,7 +40,7 @@ float halfPlane(float inside, vec2 normal) {
 
 // Where the ray of the pixel meets the sphere.
 struct Hit {
-  float coverage;  // the sphere's share of the pixel
+  float coverage;  // the sphere's share of the pixel; 0: the ray misses
   float distance;  // along the view axis
   float along;     // the ray, up to the hit
   vec3 normal;     // unit, in view space
@@ -48,7 +48,6 @@ struct Hit {
   float nv;        // cosine between the two
 };
 
-// Ends the fragment where the ray misses.
 Hit hitSphere() {
   float near = abs(edge_metallic.w), silhouette_shift = edge_metallic.x, square_side = edge_metallic.y;
   bool from_center = edge_metallic.w > 0.0;  // pixel offsets count from the sphere's center, else from the view's axis
@@ -80,9 +79,14 @@ Hit hitSphere() {
   float root = sqrt(max(-q, 0.0));
   float side = (cv - root) * per_vv >= near ? -1.0 : 1.0;
   float t = (cv + side * root) * per_vv;
-  if (coverage <= 0.0 || t < near) discard;
+  if (t < near) coverage = 0.0;
 #ifdef HAS_FRONT_DEPTH
-  if (near / t >= 0.9999 * texelFetch(front_depth, ivec2(gl_FragCoord.xy), 0).r) discard;
+  if (near / t >= 0.9999 * texelFetch(front_depth, ivec2(gl_FragCoord.xy), 0).r) coverage = 0.0;
+#endif
+#if SEES_SCENE  // pixels beside each other share what they see
+  if (sumOfQuad(vec4(coverage <= 0.0 ? 1.0 : 0.0)).x == 4.0) discard;
+#else
+  if (coverage <= 0.0) discard;
 #endif
 
   // From the center to the hit: the ray's nearest point to the center is (c x v) x v / v.v away from it.
@@ -118,4 +122,5 @@ void main() {
 #ifdef HAS_DEPTH
   gl_FragDepth = abs(edge_metallic.w) / hit.distance;
 #endif
+  if (hit.coverage <= 0.0) discard;
 }

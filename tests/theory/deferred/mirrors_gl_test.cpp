@@ -41,8 +41,7 @@ struct Shown {
   std::vector<float> off, on, bare, occluded;  // `bare`: with what they reflect disabled
 };
 
-Shown take(const scene::Scene& made, std::uint32_t width, std::uint32_t height, const char* fog = "false") {
-  runtime::test::Stage stage("graphs/deferred.json", width, height);
+void show(runtime::test::Stage& stage, const scene::Scene& made) {
   stage.world.setScene(made);
   const auto map = makeEnvironment([](int x, int y) {
     const Vec3 d = equirectDirection(x, y, 256, 128);
@@ -50,6 +49,11 @@ Shown take(const scene::Scene& made, std::uint32_t width, std::uint32_t height, 
     return std::array{sky.r, sky.g, sky.b};
   });
   stage.world.setEnvironment(std::make_shared<const assets::EnvironmentMap>(assets::toEnvironmentMap(*map)));
+}
+
+Shown take(const scene::Scene& made, std::uint32_t width, std::uint32_t height, const char* fog = "false") {
+  runtime::test::Stage stage("graphs/deferred.json", width, height);
+  show(stage, made);
   const auto draw = [&](const char* reflections, const char* ao) {
     stage.settings.sets = {{"reflections", reflections}, {"ao", ao}, {"fog", fog}, {"fog_density", "0.05"}};
     REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
@@ -88,24 +92,29 @@ std::array<Error, 2> errorsOf(const MirrorTracer& tracer, const Shown& shown, st
   return errors;
 }
 
+MeshScene metalsBetweenLights(float roughness) {
+  MeshScene made({0, 2.2, 6}, 40);
+  const scene::Material metal = metalOf(roughness);
+  const auto tile = made.addBox({1, 0.1f, 1});
+  for (int i = -3; i < 3; ++i)
+    for (int j = -4; j < 2; ++j)
+      made.put(tile, lightOf((i + j) % 2 ? glm::vec3(0.7f, 0.6f, 0.5f) : glm::vec3(0.2f, 0.25f, 0.2f)),
+               {2 * static_cast<float>(i) + 1, -1.1f, 2 * static_cast<float>(j) + 1});
+  made.put(made.addBox({0.4f, 0.8f, 0.4f}), lightOf({1.5f, 0.2f, 0.1f}), {-0.1f, -0.2f, -1.6f});
+  made.put(made.addBox({0.3f, 0.3f, 0.3f}), lightOf({0.1f, 0.3f, 1.5f}), {0.1f, -0.7f, 0.9f});
+  made.put(made.addBall(), metal, {-1.5f, 0, 0});
+  made.putSphere({1.5f, 0, 0}, 1, metal);
+  made.put(made.addBox({1.2f, 0.02f, 0.8f}), metal, {-0.1f, -0.98f, -0.4f});
+  return made;
+}
+
 }  // namespace
 
 TEST_CASE("metals reflect the scene as a path tracer does, within 4 of 255") {
   const CleanScope clean;
   constexpr std::uint32_t kWidth = 192, kHeight = 108;
   for (const double roughness : {0.0, 0.35}) {
-    MeshScene made({0, 2.2, 6}, 40);
-    const scene::Material metal = metalOf(static_cast<float>(roughness));
-    const auto tile = made.addBox({1, 0.1f, 1});
-    for (int i = -3; i < 3; ++i)
-      for (int j = -4; j < 2; ++j)
-        made.put(tile, lightOf((i + j) % 2 ? glm::vec3(0.7f, 0.6f, 0.5f) : glm::vec3(0.2f, 0.25f, 0.2f)),
-                 {2 * static_cast<float>(i) + 1, -1.1f, 2 * static_cast<float>(j) + 1});
-    made.put(made.addBox({0.4f, 0.8f, 0.4f}), lightOf({1.5f, 0.2f, 0.1f}), {-0.1f, -0.2f, -1.6f});
-    made.put(made.addBox({0.3f, 0.3f, 0.3f}), lightOf({0.1f, 0.3f, 1.5f}), {0.1f, -0.7f, 0.9f});
-    made.put(made.addBall(), metal, {-1.5f, 0, 0});
-    made.putSphere({1.5f, 0, 0}, 1, metal);
-    made.put(made.addBox({1.2f, 0.02f, 0.8f}), metal, {-0.1f, -0.98f, -0.4f});
+    const MeshScene made = metalsBetweenLights(static_cast<float>(roughness));
     const Shown shown = take(made.scene, kWidth, kHeight);
     CHECK(shown.bare == shown.off);
     CHECK(std::ranges::all_of(shown.occluded, [](float v) { return v >= 0; }));  // nor NaN
@@ -120,6 +129,45 @@ TEST_CASE("metals reflect the scene as a path tracer does, within 4 of 255") {
       CHECK(error.on < 4);
       CHECK(error.off > 4);
     }
+  }
+}
+
+TEST_CASE("rough metals in the studio reflect the scene smoothly: a few rays show no ghosts of it") {
+  const CleanScope clean;
+  constexpr std::uint32_t kWidth = 192, kHeight = 108;
+  for (const double roughness : {0.35, 0.5}) {
+    const MeshScene made = metalsBetweenLights(static_cast<float>(roughness));
+    runtime::test::Stage stage("graphs/studio.json", kWidth, kHeight);
+    show(stage, made.scene);
+    stage.settings.sets = {{"reflections", "true"}};
+    REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+    stage.run();
+    const std::vector<float> on = stage.read("hdr");
+    const MirrorTracer tracer(made.scene, made.scene.cameras.rows()[0].pose, kWidth, kHeight, skyAt);
+    constexpr double kNone = 1e9;
+    std::vector<double> off_by(std::size_t{kWidth} * kHeight, kNone);
+    double mean = 0, change = 0;
+    int count = 0, pairs = 0;
+    for (std::uint32_t y = 2; y + 2 < kHeight; ++y)
+      for (std::uint32_t x = 2; x + 2 < kWidth; ++x) {
+        const MirrorTracer::Pixel pixel = tracer.pixel(x, y, 256);
+        if (!pixel.metal) continue;
+        const std::size_t at = std::size_t{y} * kWidth + x;
+        off_by[at] = 0;
+        for (int c = 0; c < 3; ++c) {
+          const double shown = static_cast<double>(on[4 * at + static_cast<std::size_t>(c)]);
+          const double error = shownOf255(shown) - shownOf255(pixel.radiance[c]);
+          off_by[at] += error / 3, mean += std::abs(error) / 3;
+        }
+        ++count;
+        for (const std::size_t beside : {at - 2, at - 2 * kWidth})
+          if (off_by[beside] != kNone) change += std::abs(off_by[at] - off_by[beside]), ++pairs;
+      }
+    mean /= count, change /= pairs;
+    MESSAGE("studio, roughness ", roughness, ": ", mean, " of 255, changes by ", change,
+            " within two pixels");
+    CHECK(mean < 2.9);
+    CHECK(change < 1.9);
   }
 }
 
