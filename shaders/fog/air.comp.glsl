@@ -1,4 +1,4 @@
-// Fills the fog constants of a frame, for all shaders that include fog/fog.glsl.
+// Fills the fog constants, for all shaders that include fog/fog.glsl.
 // write   air           buffer of 32 bytes
 // params  fog_color     radiance of endless fog
 //         fog_density   extinction per world unit at the height `fog_base`
@@ -6,8 +6,6 @@
 //         fog_base      world units
 //         fog_layer     world units above and below the eye at which the fog in front of the sky ends
 //         fog_sky       weight of that layer
-#include "common/view.glsl"
-
 layout(local_size_x = 1) in;
 
 layout(std430) writeonly buffer air {
@@ -24,7 +22,7 @@ layout(std140) uniform Parameters {
 };
 
 void main() {
-  float at_eye = fog_density > 0.0 ? log(fog_density) - fog_falloff * (eye.y - fog_base) : -1e30;
+  float at_0 = fog_density > 0.0 ? log(fog_density) + fog_falloff * fog_base : -1e30;
   light = vec4(fog_color, 0.0);
-  shape = vec4(fog_falloff, fog_layer, fog_sky, at_eye);
+  shape = vec4(fog_falloff, fog_layer, fog_sky, at_0);
 }

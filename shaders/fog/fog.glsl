@@ -7,14 +7,16 @@
 #define FOG_FOG_GLSL
 
 #ifdef HAS_AIR
+#include "common/view.glsl"
+
 layout(std140) uniform air {
   vec4 fog_light;  // radiance of endless fog
-  vec4 fog_shape;  // falloff, layer, sky: see air.comp.glsl; w: logarithm of the extinction per world unit at the height of the eye
+  vec4 fog_shape;  // falloff, layer, sky: see air.comp.glsl; w: logarithm of the extinction per world unit at height 0
 };
 
-// Transmittance along `far` world units that climb by `up`, from a place `above` the eye.
-float throughFog(float above, float up, float far) {
-  float begin = fog_shape.w - fog_shape.x * above, density = exp(min(begin, 60.0)), climb = fog_shape.x * up;
+// Transmittance along `far` world units that climb by `up`, from a place of that `height`.
+float throughFog(float height, float up, float far) {
+  float begin = fog_shape.w - fog_shape.x * height, density = exp(min(begin, 60.0)), climb = fog_shape.x * up;
   // The mean of e^(begin - x) for x from 0 to `climb`; for small ones by its series, because the difference would cancel. Exponents are added
   // first: high above the fog the extinction underflows, although there is fog below.
   float mean = abs(climb) < 2e-3 ? density * (0.5 * climb - 1.0) : (exp(min(begin - climb, 60.0)) - density) / climb;
@@ -25,7 +27,7 @@ float throughFog(float above, float up, float far) {
 #if defined FOG_FROM_EYE && !FOG_FROM_EYE
 float throughFog(vec3 ray) { return 1.0; }
 #else
-float throughFog(vec3 ray) { return throughFog(0.0, ray.y, length(ray)); }
+float throughFog(vec3 ray) { return throughFog(eye.y, ray.y, length(ray)); }
 #endif
 #endif
 

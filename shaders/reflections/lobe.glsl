@@ -43,7 +43,7 @@ vec3 prefiltered(vec3 direction, float level, int levels) {
 // Light from `away` along a ray, behind the fog on its way.
 vec3 fogged(vec3 light, vec3 from, vec3 direction, float away) {
 #ifdef HAS_AIR
-  light = mix(fog_light.rgb, light, throughFog(from.y - eye.y, direction.y * away, away));
+  light = mix(fog_light.rgb, light, throughFog(from.y, direction.y * away, away));
 #endif
   return light;
 }
@@ -120,7 +120,7 @@ vec4 reflectedPicture(Point point, Response response, int set, int sets, int ray
       if (!found) mean = prefiltered(axis, levelOfAlpha(alpha, levels), levels);
       vec3 apart = mean - prefiltered(l, levelOfAlpha(part, levels), levels);
 #ifdef HAS_AIR
-      apart *= throughFogOfSky(axis, from.y - eye.y, alpha);
+      apart *= throughFogOfSky(axis, from.y, alpha);
 #endif
       seen.rgb += seen.a * spread * apart;
     }

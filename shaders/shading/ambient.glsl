@@ -35,7 +35,7 @@ vec3 reflectedEnvironment(Point point, Response response, Lobe lobe, vec3 axis) 
   radiance = mix(sharp, radiance, lobe.specular_weight);
 #endif
 #ifdef HAS_AIR
-  radiance = mix(fog_light.rgb, radiance, throughFogOfSky(axis, point.position.y - eye.y, alphaOfRoughness(response.roughness)));
+  radiance = mix(fog_light.rgb, radiance, throughFogOfSky(axis, point.position.y, alphaOfRoughness(response.roughness)));
 #endif
   return radiance;
 }
@@ -61,7 +61,7 @@ vec3 reflectedSpot(Point point, Response response, Lobe lobe, float strength) {
   float m = 1.0 - 0.5 * sqrt(spotHalf2(point, lobe)), m2 = m * m;
   vec3 fresnel = response.f0 + (response.f90 - response.f0) * (m2 * m2 * m);
 #ifdef HAS_AIR
-  strength *= throughFogOfSky(lobe.spot, point.position.y - eye.y, 0.0);
+  strength *= throughFogOfSky(lobe.spot, point.position.y, 0.0);
 #endif
   return fresnel * lobe.spot_light * strength;
 }
