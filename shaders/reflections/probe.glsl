@@ -39,10 +39,10 @@ bool isWhole(vec3 place) {
 vec4 probeAlong(vec3 from, vec3 direction, float part, out float away) {
   vec3 start = from - probe_at.xyz;
   float r = max(length(start), 1e-4), before = 0.0, met = 0.0;
-  // As the probe sees it, the ray goes from `start` to `direction`: steps of equal angles, as wide as its cone. At an
-  // angle a it is at (start * sin(whole - a) + direction * r * sin(a)) / sin(whole - a).
+  // As the probe sees it, the ray goes from `start` to `direction`: steps of equal angles. At an angle a it is at
+  // (start * sin(whole - a) + direction * r * sin(a)) / sin(whole - a).
   float whole = min(acos(clamp(dot(start, direction) / r, -1.0, 1.0)), 3.13);
-  int was = behindProbed(start, 1.0), steps = 4 + int(whole / clamp(part, kPi / 96.0, kPi / 24.0));
+  int was = behindProbed(start, 1.0), steps = 4 + int(whole * 96.0 / kPi);
   bool found = false;
   for (int i = 1; i <= steps && !found; ++i) {
     float angle = whole * float(i) / float(steps), w = sin(whole - angle);

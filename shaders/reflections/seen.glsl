@@ -14,7 +14,7 @@ vec4 seenOfScene(Point point, Response response) { return texelFetch(mirrored, i
 #else
 #include "reflections/lobe.glsl"
 
-// 2 x 2 pixels share the rays of a lobe: the 8 of one would show as ghosts.
+// 2 x 2 pixels share the rays of a lobe: the 5 of one would show as ghosts.
 vec4 seenOfScene(Point point, Response response) {
   ivec2 odd = ivec2(gl_FragCoord.xy) & 1;
   // Pixels beside the triangle help; they may not have been able to read its material.
@@ -28,7 +28,8 @@ vec4 seenOfScene(Point point, Response response) {
   alone = !layers.on && layers.coat > 0.0;  // the coat: not all pixels may have one
 #endif
   float reach;
-  vec4 own = reflectedPicture(point, response, alone ? 0 : odd.x + 2 * odd.y, alone ? 1 : 4, 8, reach);
-  return mix(own, 0.25 * sumOfQuad(own), alone ? 0.0 : raySpread(response.roughness));
+  vec4 own = reflectedPicture(point, response, alone ? 0 : odd.x + 2 * odd.y, alone ? 1 : 4, alone ? 8 : 5, reach);
+  if (alone) return own;
+  return mix(own, 0.25 * sumOfQuad(own), raySpread(response.roughness));
 }
 #endif
