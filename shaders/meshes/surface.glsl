@@ -64,8 +64,8 @@ vec4 mapAt(uint map, MapPlace place) {
 
 bool hidden = false;  // in a hole of a mask
 
-// Discards the fragment in a hole of a mask (of what sees the scene the includer does, at its end: pixels beside each other share what they see),
-// and on the back of a single-sided material: draw with "cull": "none".
+// Discards the fragment on the back of a single-sided material (draw with "cull": "none") and in a hole of a mask. With SEES_SCENE the includer
+// discards what is `hidden`, at its end: pixels beside each other share what they see of the scene.
 MeshSurface meshSurface() {
   Material self = material[row];
   MapPlace place = mapPlace();
@@ -89,6 +89,7 @@ MeshSurface meshSurface() {
   vec3 n_dx = dFdx(n), n_dy = dFdy(n);
 #endif
   hidden = color.a < self.alpha_cutoff;
+  // Pixels beside the triangle stay: llvmpipe reads 0 from buffers there.
   if ((hidden && SEES_SCENE == 0) || (self.double_sided == 0u && !gl_FrontFacing && !gl_HelperInvocation)) discard;
   if (!gl_FrontFacing) n = -n;
   MeshSurface surface;

@@ -101,6 +101,7 @@ vec4 reflectedPicture(Point point, Response response, int set, int sets, int ray
     vec3 l = axis;
     float weight = 1.0, cone = part;
     if (spread > 0.0) {
+      // A spiral of golden angles.
       vec2 u = vec2((float(j) + 0.5) / float(rays * sets), fract(0.618034 * float(j) + turn));
       // Rays are far apart in the lobe's tail.
       cone = min(part / (1.0 - spread * u.x), 4.0 * alpha);

@@ -37,12 +37,13 @@ bool isWhole(vec3 place) {
 
 // What the ray meets; a is 0 if nothing. `part`: alpha of the ray's cone. `away`: how far it is.
 vec4 probeAlong(vec3 from, vec3 direction, float part, out float away) {
+  const int kSteps = 96;
   vec3 start = from - probe_at.xyz;
   float r = max(length(start), 1e-4), before = 0.0, met = 0.0;
   // As the probe sees it, the ray goes from `start` to `direction`: steps of equal angles. At an angle a it is at
   // (start * sin(whole - a) + direction * r * sin(a)) / sin(whole - a).
   float whole = min(acos(clamp(dot(start, direction) / r, -1.0, 1.0)), 3.13);
-  int was = behindProbed(start, 1.0), steps = 4 + int(whole * 96.0 / kPi);
+  int was = behindProbed(start, 1.0), steps = 4 + int(whole * float(kSteps) / kPi);
   bool found = false;
   for (int i = 1; i <= steps && !found; ++i) {
     float angle = whole * float(i) / float(steps), w = sin(whole - angle);
