@@ -237,9 +237,10 @@ TEST_CASE("fog before the sky: a layer around the eye, thickest at the horizon, 
 
 TEST_CASE("fog that thins out with height: the optical depth is the integral of the density along the ray") {
   const double density = 0.05, distance = 40;
-  // The last two: so high above the fog that at the eye there is none that a float can tell.
-  for (const auto& [falloff, base] :
-       {std::pair{0.2, -3.0}, std::pair{0.2, 3.0}, std::pair{5.0, -25.0}, std::pair{1.0, -150.0}}) {
+  // The last three: so high above the fog that at the eye there is none that a float can tell, and so deep in it that no float holds its
+  // extinction.
+  for (const auto& [falloff, base] : {std::pair{0.2, -3.0}, std::pair{0.2, 3.0}, std::pair{5.0, -25.0},
+                                      std::pair{1.0, -150.0}, std::pair{2.0, 50.0}}) {
     CAPTURE(falloff);
     CAPTURE(base);
     const Radiance picture = render({{"plane.background", "2"},

@@ -150,13 +150,13 @@ TEST_CASE("aperture: a near field before things nearer to the focus is what 64 p
           ", above 32: ", 100 * full.above32, " %");
   MESSAGE("mean ", difference.mean, ", 99th percentile ", difference.percentile99,
           ", above 32: ", 100 * difference.above32, " %");
-  // Measured: 0.64, 8.1 and 0.000 %. With small discs at half size: 0.87, 10.2 and 0.003 %.
-  CHECK(difference.mean < 0.68);
-  CHECK(difference.percentile99 < 8.5);
+  // Measured: 0.63, 8.1 and 0.000 %. With small discs at half size: 0.87, 10.2 and 0.003 %.
+  CHECK(difference.mean < 0.66);
+  CHECK(difference.percentile99 < 8.4);
   CHECK(difference.above32 < 0.00004);
-  // Measured: 0.59, 7.3 and 0.002 %.
-  CHECK(full.mean < 0.62);
-  CHECK(full.percentile99 < 7.7);
+  // Measured: 0.57, 7.1 and 0.000 %.
+  CHECK(full.mean < 0.6);
+  CHECK(full.percentile99 < 7.4);
   CHECK(full.above32 < 0.00005);
 }
 
@@ -175,10 +175,11 @@ TEST_CASE("aperture: rods narrower than their discs let through what is sharp be
   const Difference difference = differenceOf(throughLens(view, lens, {}), byWeft(view, lens, {}));
   MESSAGE("mean ", difference.mean, ", 99th percentile ", difference.percentile99,
           ", above 32: ", 100 * difference.above32, " %");
-  // Measured: 0.97, 10.8 and 0.175 %. With the mean of all that is visible within a disc behind the rods, 0.16 more in the mean.
-  CHECK(difference.mean < 1.01);
-  CHECK(difference.percentile99 < 11.2);
-  CHECK(difference.above32 < 0.002);
+  // Measured: 0.96, 10.1 and 0.161 %. With what is nearest in any direction behind the rods 0.02 more in the mean, with the mean of all
+  // that is visible within a disc 0.18.
+  CHECK(difference.mean < 0.97);
+  CHECK(difference.percentile99 < 10.5);
+  CHECK(difference.above32 < 0.0018);
 }
 
 TEST_CASE("aperture: fog through a lens is what 64 places on the lens see, each through its own fog") {
