@@ -30,7 +30,7 @@ bool isWhole(vec3 place) {
     vec3 beside = vec3(0.0);
     beside[i] = onward[i] ? step : 0.0;
     float low = textureLod(probe_depth, place - beside, 0.0).r - here, high = textureLod(probe_depth, place + beside, 0.0).r - here;
-    apart = max(apart, min(abs(low + high) / (2.5 * step), 10.0 * max(abs(low), abs(high))));
+    apart = max(apart, min(abs(low + high) / (0.75 * step), 33.0 * max(abs(low), abs(high))));
   }
   return apart < here;
 }
