@@ -19,8 +19,8 @@ void main() {
   mirrored = texelFetch(source, pixel, 0);
   reach = texelFetch(reaches, pixel, 0).r;
   vec2 turned = texelFetch(normal, pixel, 0).rg;
-  float roughness = texelFetch(metallic_roughness, pixel, 0).g, shared_part = sharesRays(roughness);
-  if (turned == vec2(0.0) || shared_part == 0.0) return;
+  float roughness = texelFetch(metallic_roughness, pixel, 0).g, gathered = min(8.0 * raySpread(roughness), 1.0);
+  if (turned == vec2(0.0) || gathered == 0.0) return;
   vec3 n = decodeNormal(turned), place = positionOfDepth(uv, texelFetch(depth, pixel, 0).r);
   float width = (view_projection * vec4(place, 1.0)).w * pixelAngle(), alpha = roughness * roughness;
   vec4 sum = vec4(0.0);
@@ -47,6 +47,6 @@ void main() {
       far += weight * away;
       whole += weight;
     }
-  mirrored = mix(mirrored, sum / whole, shared_part);
-  reach = mix(reach, far / whole, shared_part);
+  mirrored = mix(mirrored, sum / whole, gathered);
+  reach = mix(reach, far / whole, gathered);
 }
