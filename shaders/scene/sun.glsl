@@ -9,6 +9,8 @@ struct Sun {
   float texel;         // world units that a texel of the shadow map is wide
   mat4 shadow_matrix;  // world to texture coordinates and reversed-Z depth, all 0..1; a rotation and a scale
 };
+#ifdef HAS_SUN
 layout(std430) readonly buffer sun { Sun sun_light[]; };
+#endif
 
 #endif

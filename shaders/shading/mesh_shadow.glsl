@@ -2,7 +2,7 @@
 // read    light_maps    `as compare`, an array: of the sun if there is one, of the first spot, of the others
 //         light_depths  the same as numbers
 //         scene_bounds  see shadow/scene_bounds.glsl
-//         sun_windows?  see shadow/sun_windows.comp.glsl: their maps are the last of light_maps
+//         sun_windows?  see shadow/sun_windows.comp.glsl, of the sun or else of the first spot: their maps are the last of light_maps
 //         sun?, brightest?   see scene/sun.glsl, ibl/brightest.glsl; included before, as is sky_turn
 // Penumbrae grow with the distance from what casts them: percentage-closer soft shadows, Fernando, SIGGRAPH 2005 sketches. A sample beside
 // the point is compared with the receiver's plane there, so planes do not shadow themselves. A point may lie beyond depth 0 of the map.
@@ -13,11 +13,9 @@
 #include "shading/point.glsl"
 #include "shadow/rows.glsl"
 #include "shadow/scene_bounds.glsl"
-#ifdef HAS_SUN
 #include "scene/sun.glsl"
 #ifdef HAS_SUN_WINDOWS
 layout(std430) readonly buffer sun_windows { Sun sun_window[]; };
-#endif
 #endif
 
 uniform sampler2DArrayShadow light_maps;
@@ -36,14 +34,12 @@ struct ShadowedLight {
   MapRows map;
 };
 
-#ifdef HAS_SUN
 ShadowedLight shadowedSun(Sun self) {
   float spread = sqrt(max(1.0 - self.cos_angle * self.cos_angle, 0.0)) / max(self.cos_angle, 1e-3);
   vec4 x = self.shadow_matrix[0], y = self.shadow_matrix[1], z = self.shadow_matrix[2], origin = self.shadow_matrix[3];
   MapRows map = MapRows(vec4(x.x, y.x, z.x, origin.x), vec4(x.y, y.y, z.y, origin.y), vec4(x.z, y.z, z.z, origin.z));
   return ShadowedLight(self.direction, spread, self.texel, vec3(0.0, 0.0, 1.0), map);
 }
-#endif
 
 const int kBlockers = 16, kFilter = 32;  // samples of the search and of the filter
 const float kWidest = 0.1;               // share of its part of the map that a penumbra may take
@@ -108,19 +104,17 @@ LightsSeen lightsPastMeshes(vec3 position, vec3 n, float turn) {
                                        inPart(mapFrom(spot), part));
     light_layer = float(min(i, 2) - first);
 #ifdef HAS_SUN
-    if (i == 0) {
-      self = shadowedSun(sun_light[0]);
-#ifdef HAS_SUN_WINDOWS
-      // The finest window that holds all that the widest penumbra is made of.
-      for (int w = 0; w < sun_window.length(); ++w) {
-        ShadowedLight finer = shadowedSun(sun_window[w]);
-        vec2 off = abs(onMap(finer.map, position).xy - 0.5);
-        if (max(off.x, off.y) < 0.49 - kWidest) {
-          self = finer;
-          light_layer = float(textureSize(light_maps, 0).z - sun_window.length() + w);
-        }
-      }
+    if (i == 0) self = shadowedSun(sun_light[0]);
 #endif
+#ifdef HAS_SUN_WINDOWS
+    // The finest window that holds all that the widest penumbra is made of.
+    for (int w = 0; w < (i == first ? sun_window.length() : 0); ++w) {
+      ShadowedLight finer = shadowedSun(sun_window[w]);
+      vec2 off = abs(onMap(finer.map, position).xy - 0.5);
+      if (max(off.x, off.y) < 0.49 - kWidest) {
+        self = finer;
+        light_layer = float(textureSize(light_maps, 0).z - sun_window.length() + w);
+      }
     }
 #endif
     float open = 1.0;

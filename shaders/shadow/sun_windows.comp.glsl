@@ -1,18 +1,42 @@
 // Windows of the sun's map around what is near the eye, each a quarter as wide as the one before. They keep their size and move by whole
 // texels, so shadows do not crawl: Valient, "Stable rendering of cascaded shadow maps", ShaderX6, 2008.
-// read    sun           see scene/sun.glsl
+// read    sun?          see scene/sun.glsl; without it the environment's brightest spot is the sun:
+//         brightest     `as uniform`, see ibl/brightest.glsl
+//         scene_bounds  see shadow/scene_bounds.glsl
 // write   sun_windows   Sun[]: its map is the window
 // params  eye, ahead    where it is, and the unit direction in which it looks; about is enough
+//         sky_turn      without sun: rotation of the environment, in full turns
 #include "scene/sun.glsl"
+#ifndef HAS_SUN
+#include "ibl/brightest.glsl"
+#include "shadow/scene_bounds.glsl"
+#endif
 layout(local_size_x = 4) in;
 
 layout(std430) writeonly buffer sun_windows { Sun sun_window[]; };
-layout(std140) uniform Parameters { vec3 eye; vec3 ahead; };
+layout(std140) uniform Parameters {
+  vec3 eye;
+  vec3 ahead;
+#ifdef HAS_SKY_TURN
+  float sky_turn;
+#endif
+};
+
+#ifdef HAS_SUN
+Sun brightestSun() { return sun_light[0]; }
+#else
+Sun brightestSun() {
+  vec3 towards = towardsSpot(0, sky_turn);
+  MapRows map = mapFrom(towards);
+  return Sun(towards, cos(min(spotIrradiance(0).w, 0.5)), vec3(0.0), bounds_row[0].texel,
+             transpose(mat4(map.u, map.v, map.depth, vec4(0.0, 0.0, 0.0, 1.0))));
+}
+#endif
 
 void main() {
   int i = int(gl_GlobalInvocationID.x);
   if (i >= sun_window.length()) return;
-  Sun self = sun_light[0];
+  Sun self = brightestSun();
   mat4 whole = self.shadow_matrix;
   float per_unit = length(vec3(whole[0].x, whole[1].x, whole[2].x));
   // Wide enough for the penumbra of what is an eighth of the whole away: see kWidest in shading/mesh_shadow.glsl.

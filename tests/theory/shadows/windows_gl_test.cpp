@@ -45,13 +45,17 @@ struct Point {
   double away = 0, truth = 0, error = 0;
 };
 
-// Of the pixels that show the plain and nothing else: what is left of the sun there against `rays` rays to its disc.
-std::vector<Point> compare(const scene::Scene& scene, const std::string& graph, int maps, int rays) {
+// Of the pixels that show the plain and nothing else: what is left of the sun there against `rays` rays to its disc. With a `sky`, that is
+// where it is.
+std::vector<Point> compare(const scene::Scene& scene, const std::string& graph, int maps, int rays,
+                           const std::shared_ptr<const assets::ImageF>& sky = nullptr) {
   Frame frame = {graph, {}, {{"sun_maps", std::to_string(maps)}}};
   if (graph == "graphs/deferred.json") frame.sets.push_back({"ao", "false"});
-  const auto dark = constantEnvironment(0, 0, 0);
-  const std::vector<float> with = radianceOf(frame, scene, true, dark),
-                           without = radianceOf(frame, scene, false, dark);
+  scene::Scene shown = scene;
+  if (sky) shown.sun.reset();
+  const auto around = sky ? sky : constantEnvironment(0, 0, 0);
+  const std::vector<float> with = radianceOf(frame, shown, true, around),
+                           without = radianceOf(frame, shown, false, around);
   std::mt19937 random(21);
   const glm::dvec3 axis(scene.sun->direction);
   std::vector<Point> points;
@@ -90,21 +94,35 @@ double meanErrorOf(std::span<const Point> points) {
 
 }  // namespace
 
-TEST_CASE("windows of the sun's map: a fence near the eye casts its pickets' shadows") {
+TEST_CASE(
+    "windows of the sun's map: a fence near the eye casts its pickets' shadows, in the sky's sun, too") {
   const CleanScope clean;
-  Plain plain(0.53f);
-  for (int i = 0; i < 24; ++i)
-    plain.addBox({-1.7f + 0.14f * static_cast<float>(i), 0.5f, 1.3f}, {0.035f, 0.5f, 0.0125f});
-  const auto nearThird = [&](const char* graph, int maps) {
-    const std::vector<Point> points = compare(plain.scene(), graph, maps, 16);
+  // A texel of the sky, 1.4 degrees wide.
+  const double around = (39.5 / 256 - 0.5) * kTurn, above = (0.25 - 32.5 / 256) * kTurn;
+  const glm::vec3 towards(std::cos(above) * std::cos(around), std::sin(above),
+                          std::cos(above) * std::sin(around));
+  const auto sky = makeEnvironment([](int x, int y) {
+    const double value = x == 39 && y == 32 ? 3000 : 0;
+    return std::array{value, value, value};
+  });
+  Plain plain(0.53f), below_sky(1.5f, towards);
+  for (Plain* each : {&plain, &below_sky})
+    for (int i = 0; i < 24; ++i)
+      each->addBox({-1.7f + 0.14f * static_cast<float>(i), 0.5f, 1.3f}, {0.035f, 0.5f, 0.0125f});
+  const auto nearThird = [&](const char* graph, int maps, bool in_sky) {
+    const std::vector<Point> points =
+        in_sky ? compare(below_sky.scene(), graph, maps, 16, sky) : compare(plain.scene(), graph, maps, 16);
     CHECK(points.size() > 6000);
     const double mean = meanErrorOf(std::span(points).first(points.size() / 3));
-    MESSAGE(std::string(graph), ", ", maps, " maps, nearer than ", points[points.size() / 3].away, ": mean ",
-            mean);
+    MESSAGE(std::string(graph), std::string(in_sky ? ", the sky's sun, " : ", "), maps, " maps, nearer than ",
+            points[points.size() / 3].away, ": mean ", mean);
     return mean;
   };
-  CHECK(nearThird("graphs/deferred.json", 1) > 0.3);  // so coarse is one map here
-  for (const char* graph : {"graphs/deferred.json", "graphs/studio.json"}) CHECK(nearThird(graph, 3) < 0.07);
+  for (const bool in_sky : {false, true}) {
+    CHECK(nearThird("graphs/deferred.json", 1, in_sky) > 0.3);  // so coarse is one map here
+    for (const char* graph : {"graphs/deferred.json", "graphs/studio.json"})
+      CHECK(nearThird(graph, 3, in_sky) < 0.07);
+  }
 }
 
 // The shadows of beams go through all rims. In rings of as many points around the eye, of which few have rims in them, the
