@@ -10,10 +10,13 @@
 #define SHADING_MESH_SHADOW_GLSL
 
 #include "ibl/brightest.glsl"
+#include "scene/sun_row.glsl"
 #include "shading/point.glsl"
 #include "shadow/rows.glsl"
 #include "shadow/scene_bounds.glsl"
+#ifdef HAS_SUN
 #include "scene/sun.glsl"
+#endif
 #ifdef HAS_SUN_WINDOWS
 layout(std430) readonly buffer sun_windows { Sun sun_window[]; };
 #endif

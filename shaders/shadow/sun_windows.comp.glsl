@@ -5,10 +5,12 @@
 //         scene_bounds  see shadow/scene_bounds.glsl
 // write   sun_windows   Sun[]: its map is the window
 // params  eye, ahead    where it is, and the unit direction in which it looks; about is enough
-//         sky_turn      without sun: rotation of the environment, in full turns
+//         sky_turn?     without sun: rotation of the environment, in full turns
+#ifdef HAS_SUN
 #include "scene/sun.glsl"
-#ifndef HAS_SUN
+#else
 #include "ibl/brightest.glsl"
+#include "scene/sun_row.glsl"
 #include "shadow/scene_bounds.glsl"
 #endif
 layout(local_size_x = 4) in;
@@ -21,6 +23,9 @@ layout(std140) uniform Parameters {
   float sky_turn;
 #endif
 };
+#ifndef HAS_SKY_TURN
+const float sky_turn = 0.0;
+#endif
 
 #ifdef HAS_SUN
 Sun brightestSun() { return sun_light[0]; }

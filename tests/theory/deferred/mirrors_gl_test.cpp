@@ -113,7 +113,7 @@ MeshScene metalsBetweenLights(float roughness) {
 TEST_CASE("metals reflect the scene as a path tracer does, within 4 of 255") {
   const CleanScope clean;
   constexpr std::uint32_t kWidth = 192, kHeight = 108;
-  for (const double roughness : {0.08, 0.1, 0.13, 0.16, 0.2}) {
+  for (const double roughness : {0.0, 0.15, 0.35}) {
     const MeshScene made = metalsBetweenLights(static_cast<float>(roughness));
     const Shown shown = take(made.scene, kWidth, kHeight);
     CHECK(shown.bare == shown.off);
@@ -135,7 +135,7 @@ TEST_CASE("metals reflect the scene as a path tracer does, within 4 of 255") {
 TEST_CASE("rough metals in the studio reflect the scene smoothly: a few rays show no ghosts of it") {
   const CleanScope clean;
   constexpr std::uint32_t kWidth = 192, kHeight = 108;
-  for (const double roughness : {0.08, 0.1, 0.13, 0.16, 0.2}) {
+  for (const double roughness : {0.35, 0.5}) {
     const MeshScene made = metalsBetweenLights(static_cast<float>(roughness));
     runtime::test::Stage stage("graphs/studio.json", kWidth, kHeight);
     show(stage, made.scene);
