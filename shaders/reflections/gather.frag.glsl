@@ -19,7 +19,7 @@ void main() {
   mirrored = texelFetch(source, pixel, 0);
   reach = texelFetch(reaches, pixel, 0).r;
   vec2 turned = texelFetch(normal, pixel, 0).rg;
-  float roughness = texelFetch(metallic_roughness, pixel, 0).g, gathered = min(8.0 * raySpread(roughness), 1.0);
+  float roughness = texelFetch(metallic_roughness, pixel, 0).g, gathered = sharedOf(raySpread(roughness));
   if (turned == vec2(0.0) || gathered == 0.0) return;
   vec3 n = decodeNormal(turned), place = positionOfDepth(uv, texelFetch(depth, pixel, 0).r);
   float width = (view_projection * vec4(place, 1.0)).w * pixelAngle(), alpha = roughness * roughness;

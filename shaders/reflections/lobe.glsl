@@ -104,7 +104,7 @@ vec4 reflectedPicture(Point point, Response response, int set, int sets, int ray
       // A spiral of golden angles.
       vec2 u = vec2((float(j) + 0.5) / float(rays * sets), fract(0.618034 * float(j) + turn));
       // Rays are far apart in the lobe's tail.
-      cone = min(part / (1.0 - u.x), 4.0 * alpha);
+      cone = min(part / (1.0 - sharedOf(spread) * u.x), 4.0 * alpha);
       vec3 h = visibleHalf(seen_from, alpha, u), reflected = reflect(-seen_from, h);
       // Its share of single scattering: masking from both sides over masking from the eye's.
       float nl = max(reflected.z, 0.0), lv = sqrt(nv * nv * (1.0 - a2) + a2), ll = sqrt(nl * nl * (1.0 - a2) + a2);

@@ -30,6 +30,6 @@ vec4 seenOfScene(Point point, Response response) {
   float reach;
   vec4 own = reflectedPicture(point, response, alone ? 0 : odd.x + 2 * odd.y, alone ? 1 : 4, alone ? 8 : 5, reach);
   if (alone) return own;
-  return mix(own, 0.25 * sumOfQuad(own), min(4.0 * raySpread(response.roughness), 1.0));
+  return mix(own, 0.25 * sumOfQuad(own), sharedOf(raySpread(response.roughness)));
 }
 #endif
