@@ -8,8 +8,8 @@
 #include "far_layer.glsl"
 out vec4 result;
 
-vec4 all = vec4(0.0);  // that is visible, and the sum of its discs
-float radii = 0.0;
+vec4 all = vec4(0.0);  // that is visible within the disc, a sum
+float radii = 0.0;     // of its discs, a sum
 
 struct Side {
   vec4 seen;   // alpha 1, or all of it 0

@@ -19,7 +19,8 @@ float throughFog(float height, float up, float far) {
   float begin = fog_shape.w - fog_shape.x * height, climb = fog_shape.x * up;
   float density = exp(min(begin, 60.0)), end = exp(min(begin - climb, 60.0));
   // The mean of e^(begin - x) for x from 0 to `climb`; for small ones by its series, because the difference would cancel. Exponents are added
-  // first: high above the fog the extinction underflows, although there is fog below.
+  // first: high above the fog the extinction underflows, although there is fog below. The mean is at least what is at the thinner end: where
+  // both ends are beyond e^60, their difference is 0.
   float mean = abs(climb) < 2e-3 ? density * (0.5 * climb - 1.0) : (end - density) / climb;
   return exp(far * min(mean, -min(density, end)));
 }

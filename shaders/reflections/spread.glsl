@@ -5,7 +5,8 @@
 
 float raySpread(float roughness) { return smoothstep(0.1, 0.2, roughness); }
 
-// How much neighbors share their rays, and rays of a lobe's tail look wider: all of it before they are far apart.
+// How much a pixel takes the mean of its neighbors' rays, and how much wider rays of the lobe's tail look than others: wholly before rays are
+// far apart.
 float sharedOf(float spread) { return min(4.0 * spread, 1.0); }
 
 #endif
