@@ -173,7 +173,8 @@ bool collectLeaves(const SlotContext& context, Names& names, const RefDesc& ref,
 
 bool isWritable(const SlotContext& context, const SlotDesc& slot, std::uint32_t found) {
   const Entity& entity = context.model.entities[found];
-  return (entity.isOwn() && slot.ref.history == 0) ||
+  const bool unbound = entity.desc && entity.desc->kind == ResourceDesc::Kind::input;
+  return ((unbound || entity.isOwn()) && slot.ref.history == 0) ||
          context.report(say::notWritable, slot.ref.place, verbOf(slot.access), slot.ref.text, entity.name);
 }
 

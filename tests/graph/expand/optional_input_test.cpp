@@ -59,3 +59,29 @@ TEST_CASE("an optional input without a resource has no size") {
             .message.starts_with("'middle.extra' has no size: nothing is bound to this input"));
   CHECK_FALSE(none.graph);
 }
+
+TEST_CASE("a pass may modify an optional input: a resource, nothing, but no import") {
+  const auto with = [](const std::string& resources, const std::string& passes, const std::string& bind,
+                       const std::string& modified = "tested") {
+    return expandFiles(
+        "expand_optional",
+        {{"inner.json", R"J({ "inputs": ["tested ?"], "resources": { "res": { "texture": "rgba8" } },
+      "passes": [ { "name": "go", "type": "fullscreen", "shader": "a.frag.glsl", "write": { "result": "res" },
+                    "modify": { "tested": ")J" +
+                            modified + R"J(" }, "state": { "depth_test": "equal" } } ] })J"},
+         {"outer.json", R"J({ "resources": { )J" + resources + R"J( }, "passes": [ )J" + passes +
+                            R"J( { "include": "inner.json" )J" + bind +
+                            R"J( } ], "present": "inner.res" })J"}});
+  };
+  const Expanded none = with("", "", "");
+  REQUIRE_MESSAGE(none.graph, none.text());
+  CHECK(none.useText("inner.go", "tested") == "-");
+  const Expanded bound =
+      with(R"J("d": { "texture": "depth32f" })J",
+           R"J({ "name": "first", "type": "fullscreen", "shader": "a.frag.glsl", "write": ["d"] },)J",
+           R"J(, "bind": { "tested": "d" })J");
+  REQUIRE_MESSAGE(bound.graph, bound.text());
+  CHECK(bound.useText("inner.go", "tested") == "d");
+  CHECK_FALSE(with("", "", R"J(, "bind": { "tested": "@environment" })J").graph);
+  CHECK(with("", "", "", "tested@-1").has(Code::notWritable));
+}
