@@ -5,11 +5,18 @@
 //         knee       width of the soft start as a fraction of the threshold, 0..1; 0 is a hard edge [0.5]
 //         firefly    define, default 1: texels weigh 1 / (1 + luminance), so that a single bright one cannot flash
 //                    (Karis, "Next generation post processing in Call of Duty", SIGGRAPH 2014, slide 166)
+//         wider, higher   defines, default 1; 0: `result` has exactly half the source's columns, rows
 #include "common/finite.glsl"
 #include "bright.glsl"
 
 #ifndef FIREFLY
 #define FIREFLY 1
+#endif
+#ifndef WIDER
+#define WIDER 1
+#endif
+#ifndef HIGHER
+#define HIGHER 1
 #endif
 
 uniform sampler2D source;
@@ -51,7 +58,7 @@ void addRow(vec2 at, float part) {
   // A nearest lookup costs less than a fetch in software.
   add(textureLod(source, at, 0.0).rgb, shares.x);
   add(textureLod(source, at + vec2(texel.x, 0.0), 0.0).rgb, shares.y);
-  if (across.z > 0.0) add(textureLod(source, at + vec2(2.0 * texel.x, 0.0), 0.0).rgb, shares.z);
+  if (WIDER == 1 && across.z > 0.0) add(textureLod(source, at + vec2(2.0 * texel.x, 0.0), 0.0).rgb, shares.z);
 }
 
 // What of a length from `start` on is in each of three texels; it starts in the first.
@@ -70,6 +77,6 @@ void main() {
   vec3 along = sharesOf(start.y, side.y);
   addRow(first, along.x);
   addRow(first + vec2(0.0, texel.y), along.y);
-  if (along.z > 0.0) addRow(first + vec2(0.0, 2.0 * texel.y), along.z);
+  if (HIGHER == 1 && along.z > 0.0) addRow(first + vec2(0.0, 2.0 * texel.y), along.z);
   result = vec4(sum / weights, 1.0);
 }
