@@ -36,7 +36,8 @@ vec3 towardsEye(vec3 position) {
 // Radians that one pixel covers at the center of the view.
 float pixelAngle() { return 2.0 / (projection[1].y * viewport.y); }
 
-// Angle that a lookup for one pixel covers. With jitter, frames are averaged, which blurs already.
-float lookupAngle() { return (jitter == vec2(0.0) ? 1.0 : 0.5) * pixelAngle(); }
+// Share of a pixel that a lookup for it covers, and its angle. With jitter, frames are averaged, which blurs already.
+float lookupShare() { return jitter == vec2(0.0) ? 1.0 : 0.5; }
+float lookupAngle() { return lookupShare() * pixelAngle(); }
 
 #endif

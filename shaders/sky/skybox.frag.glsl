@@ -5,6 +5,7 @@
 //         brightest? the spots that `blurred` lacks, see ibl/brightest.glsl
 //         disc?      the sun that `sky` and `blurred` lack, see sky/daylight.comp.glsl; instead of `brightest`
 //         air?       see fog/sky.glsl
+//         enlarged?  what WIDE drew, see skybox.vert.glsl, `as linear`: taken instead of looking up, and nothing is drawn where FINE draws
 // write   radiance   scene-referred, linear; alpha 1
 //         velocity   screen UV per frame of a point at infinity
 // params  sky_turn?  rotation of the environment, in full turns, from +X towards +Z
@@ -14,6 +15,9 @@
 
 noperspective in vec3 direction;
 noperspective in vec2 uv;
+#ifdef HAS_ENLARGED
+noperspective in vec2 enlarged_uv;
+#endif
 #ifdef HAS_VELOCITY
 noperspective in vec3 before;
 #endif
@@ -41,11 +45,16 @@ out vec2 velocity;
 
 void main() {
 #ifdef HAS_RADIANCE
+#ifdef HAS_ENLARGED
+  vec3 color = textureLod(enlarged, enlarged_uv, 0.0).rgb;
+#else
   vec2 at = equirectUv(direction) - vec2(sky_turn, 0.0);
   vec3 color = sampleEquirectSmooth(sky, at, sky_lookup, sky_smooth.xy, sky_smooth.z).rgb;
 #ifdef HAS_BLURRED
   color = mix(color, sampleEquirectSmooth(blurred, at, blurred_lookup, blurred_smooth.xy, blurred_smooth.z).rgb, blurred_share);
-#ifdef HAS_BRIGHTEST
+#endif
+#endif
+#if defined HAS_BLURRED && defined HAS_BRIGHTEST
   for (int i = 0; i < spot_count; ++i) {
 #ifdef HAS_DISC
     vec3 towards = sun;
@@ -58,7 +67,6 @@ void main() {
     SpotShape shape = spotShape(spots_blur.x, 0.25 * light.w);
     color += light.rgb * (spots_blur.y * spotDistribution(shape, 0.5 - 0.5 * cosine, 1.0, max(cosine, 0.0), 1.0));
   }
-#endif
 #endif
 #ifdef HAS_DISC
   float along = max(dot(direction, sun), 1e-6);

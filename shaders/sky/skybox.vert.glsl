@@ -1,4 +1,14 @@
 // The environment as background. Directions are linear over the picture, and levels constant, so both are computed here.
+// Texels that are wide in the picture are smooth, and need fewer pixels than it has (near the poles they are narrow, and get softer):
+// defines WIDE   draws these for `enlarged` of skybox.frag.glsl: a "quad" in a target of half the picture's size, rounded up, and two more
+//         FINE   draws all others
+// params  rows   with WIDE, of the picture; see skybox.frag.glsl for the others
+#ifndef WIDE
+#define WIDE 0
+#endif
+#ifndef FINE
+#define FINE 0
+#endif
 #include "common/view.glsl"
 #include "maps.glsl"
 #include "ibl/roughness_level.glsl"
@@ -7,6 +17,9 @@ noperspective out vec3 direction;  // world, not normalized
 noperspective out vec2 uv;
 #ifdef HAS_VELOCITY
 noperspective out vec3 before;     // the direction in last frame's clip space: x, y, w
+#endif
+#ifdef HAS_ENLARGED
+noperspective out vec2 enlarged_uv;
 #endif
 // Lookups, see common/equirect.glsl; the level is 0 as long as the map is magnified.
 flat out vec2 sky_lookup;
@@ -25,9 +38,16 @@ flat out vec2 disc_edge;   // the disc is as much as disc_edge.x - disc_edge.y *
 flat out vec3 disc_radiance;
 #endif
 
+// Radians that a pixel of the picture covers.
+#if WIDE
+float pictureAngle() { return 2.0 / (projection[1].y * rows); }
+#else
+float pictureAngle() { return pixelAngle(); }
+#endif
+
 vec2 lookupOf(sampler2D map, float least) {
   vec2 size = vec2(textureSize(map, 0));
-  return equirectLookup(max(equirectLevel(size.x, lookupAngle()), least), 0.5 / size.y);
+  return equirectLookup(max(equirectLevel(size.x, lookupShare() * pictureAngle()), least), 0.5 / size.y);
 }
 
 vec3 smoothOf(sampler2D map, float level) {
@@ -35,17 +55,14 @@ vec3 smoothOf(sampler2D map, float level) {
 #ifdef HAS_DISC  // the computed sky: a constant, since software drivers run both sides of a branch
   return vec3(size, 0.0);
 #else
-  return vec3(size, texelFetch(map, ivec2(0), 0).a * splineShare(size.y, pixelAngle()));
+  return vec3(size, texelFetch(map, ivec2(0), 0).a * splineShare(size.y, pictureAngle()));
 #endif
 }
 
+// Pixels of the picture across a texel; 0: it is not to be smoothed.
+float texelWidth(vec3 smooth_of) { return smooth_of.z > 0.0 ? kPi / (smooth_of.y * pictureAngle()) : 0.0; }
+
 void main() {
-  uv = vec2(gl_VertexID == 1 ? 2.0 : 0.0, gl_VertexID == 2 ? 2.0 : 0.0);
-  gl_Position = vec4(uv * 2.0 - 1.0, 0.0, 1.0);
-  direction = viewRay(uv);
-#ifdef HAS_VELOCITY
-  before = (previous_view_projection * vec4(direction, 0.0)).xyw;
-#endif
   sky_lookup = lookupOf(sky, 0.0);
   sky_smooth = smoothOf(sky, sky_lookup.x);
   float roughness = 0.25 * blur;
@@ -54,6 +71,41 @@ void main() {
   blurred_lookup = lookupOf(blurred, levelOfAlpha(in_map, textureQueryLevels(blurred)));
   blurred_smooth = smoothOf(blurred, blurred_lookup.x);
   blurred_share = min(roughness / kSharpest, 1.0);
+#endif
+#if WIDE || FINE || defined HAS_ENLARGED
+  float width = texelWidth(sky_smooth);
+#ifdef HAS_BLURRED
+  width = min(blurred_share < 1.0 ? width : 1e30, texelWidth(blurred_smooth));
+#endif
+  // Programs may round differently, so what lies below `enlarged` draws a little more.
+  bool drawn = FINE == 1 ? width < 3.501 : width >= (WIDE == 1 ? 3.499 : 3.5);
+#else
+  const bool drawn = true;
+#endif
+#if WIDE || defined HAS_ENLARGED
+  // The picture in the small target, a pixel off the rim for linear lookups. Two pixels a texel are enough for texels up to 5.7 wide in the
+  // picture, of which the small target has half; wider ones show their shape, and get more.
+#if WIDE
+  vec2 small = viewport;
+#else
+  vec2 small = vec2(textureSize(enlarged, 0));
+#endif
+  vec2 rim = 1.0 / small, side = clamp(4.0 / max(width, 1.0), 0.7, 1.0) * (1.0 - 2.0 * rim);
+#endif
+#if WIDE
+  vec2 at = vec2(gl_VertexID & 1, gl_VertexID >> 1) * (side + 2.0 * rim);
+  uv = (at - rim) / side;
+#else
+  vec2 at = vec2(gl_VertexID == 1 ? 2.0 : 0.0, gl_VertexID == 2 ? 2.0 : 0.0);
+  uv = at;
+#endif
+#ifdef HAS_ENLARGED
+  enlarged_uv = rim + uv * side;
+#endif
+  gl_Position = drawn ? vec4(at * 2.0 - 1.0, 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+  direction = viewRay(uv);
+#ifdef HAS_VELOCITY
+  before = (previous_view_projection * vec4(direction, 0.0)).xyw;
 #endif
 #ifdef HAS_DISC
   sun = turnedAbout(disc_at.xyz, sky_turn);

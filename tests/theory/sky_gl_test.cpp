@@ -294,7 +294,9 @@ double splineOf(const weft::assets::ImageF& map, int degree, const glm::dvec3& t
 TEST_CASE("texels wider than two pixels are cubic B-splines, and those as wide as one linear") {
   const double alike =
       2 / kDegree * std::atan(0.995 * std::numbers::pi / kHeight * 120 / 2);  // degrees for 120 rows
-  for (const auto& [fov, degree] : {std::pair{5.0, 3}, {60.0, 3}, {alike, 1}})
+  // At 35 degrees they are drawn with fewer pixels than the picture has, and the window is 3 brighter than the wall.
+  for (const auto& [fov, degree, bound] :
+       {std::tuple{5.0, 3, 0.03}, {35.0, 3, 0.15}, {60.0, 3, 0.03}, {alike, 1, 0.03}})
     for (const glm::dvec3 to :
          {glm::dvec3{-0.546, 0.668, -0.838}, {0.7, 0.2, -0.4}, {0.1, 1.5, 0.3}, {0.1, -0.4, 1}}) {
       Setup setup = studio(0, 0, 0);
@@ -314,7 +316,7 @@ TEST_CASE("texels wider than two pixels are cubic B-splines, and those as wide a
         }
       CAPTURE(fov);
       CAPTURE(to.x);
-      CHECK(worst < 0.03);
+      CHECK(worst < bound);
     }
 }
 

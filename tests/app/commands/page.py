@@ -53,7 +53,7 @@ def main():
         report.check(seen["searched"] == ["post.fxaa.find_edges", "#post.fxaa.find_edges"], f"searched: {seen['searched']}")
         report.check(seen["left"] == after[after.index("post.fxaa.find_edges") - 1], f"left of find_edges: {seen['left']}")
         report.check(seen["down"] in {resource["name"] for resource in plans[1]["resources"]}, f"a row: {seen['down']}")
-        report.check(seen["tree"] == "lit.skybox" and seen["byAddress"] == "post.display.composite", f"{seen['tree']}, by its address {seen['byAddress']}")
+        report.check(seen["tree"] == "lit.sky.skybox" and seen["byAddress"] == "post.display.composite", f"{seen['tree']}, by its address {seen['byAddress']}")
         report.check(shlex.split(seen["command"]) == ["weft", "report", *GRAPH, *OTHER, "-o", str(page)], f"copied: {seen['command']}")
         file, line = seen["copiedFile"].rsplit(":", 1)
         report.check("main()" in (TOP / file).read_text().splitlines()[int(line) - 1], f"copied: {seen['copiedFile']}")

@@ -135,8 +135,8 @@ def tree(folder):
 RENAMES = [  # in the bundled graphs: a file, what stands there, its part to rename
     ("graphs/lit.json", '"light_maps":', "light_maps"),               # a slot of many shaders
     ("graphs/lit.json", '"ground_sky":', "ground_sky"),               # a resource
-    ("graphs/lit.json", '"name": "skybox"', "skybox"),                # a pass
-    ("graphs/studio.json", '"sky_blur":', "sky_blur"),                # a parameter
+    ("graphs/effects/sky.json", '"name": "skybox"', "skybox"),        # a pass
+    ("graphs/studio.json", '"subdivision":', "subdivision"),          # a parameter
     ("graphs/glow.json", '"result": "ldr"', "result"),                # a slot that most shaders have
 ]
 
