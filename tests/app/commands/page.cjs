@@ -40,6 +40,7 @@ async function session() {
   seen.left = await selected();
   await page.keyboard.press("ArrowDown");
   seen.down = await selected();
+  await page.locator(".tree summary", { hasText: /^sky\b/ }).click();
   await page.locator(".tree button", { hasText: "skybox" }).click();
   seen.tree = await selected();
   const second = await context.newPage();
