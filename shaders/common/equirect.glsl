@@ -36,9 +36,12 @@ vec4 sampleEquirect(sampler2D map, vec2 map_uv, vec2 lookup) {
   return textureLod(map, vec2(map_uv.x, clamp(map_uv.y, lookup.y, 1.0 - lookup.y)), lookup.x);
 }
 
-// The share of a lookup that is cubic: 0 up to where a texel is as wide as a pixel of `angle` radians, 1 from where it is twice as wide. A linear
-// lookup shows such texels as squares. `rows`: of the level.
-float splineShare(float rows, float angle) { return clamp(kPi / (rows * angle) - 1.0, 0.0, 1.0); }
+// Pixels of `angle` radians across a texel of a level with so many rows.
+float texelWidth(float rows, float angle) { return kPi / (rows * angle); }
+
+// The share of a lookup that is cubic: 0 up to where a texel is as wide as a pixel, 1 from where it is twice as wide. A linear lookup shows
+// such texels as squares.
+float splineShare(float rows, float angle) { return clamp(texelWidth(rows, angle) - 1.0, 0.0, 1.0); }
 
 // sampleEquirect() on the texels of a level of `size`, with `share` of a cubic B-spline in the weights and the rest linear. Four linear lookups
 // have the weights of 16 texels: each takes two texels along both axes, at the place between them that has the weights' ratio.

@@ -59,8 +59,8 @@ vec3 smoothOf(sampler2D map, float level) {
 #endif
 }
 
-// Pixels of the picture across a texel; 0: it is not to be smoothed.
-float texelWidth(vec3 smooth_of) { return smooth_of.z > 0.0 ? kPi / (smooth_of.y * pictureAngle()) : 0.0; }
+// Pixels of the picture across a texel, by smoothOf(); 0: it is not to be smoothed.
+float smoothWidth(vec3 of) { return of.z > 0.0 ? texelWidth(of.y, pictureAngle()) : 0.0; }
 
 void main() {
   sky_lookup = lookupOf(sky, 0.0);
@@ -73,18 +73,18 @@ void main() {
   blurred_share = min(roughness / kSharpest, 1.0);
 #endif
 #if WIDE || FINE || defined HAS_ENLARGED
-  float width = texelWidth(sky_smooth);
+  float width = smoothWidth(sky_smooth);
 #ifdef HAS_BLURRED
-  width = min(blurred_share < 1.0 ? width : 1e30, texelWidth(blurred_smooth));
+  width = min(blurred_share < 1.0 ? width : 1e30, smoothWidth(blurred_smooth));
 #endif
-  // Programs may round differently, so what lies below `enlarged` draws a little more.
+  // The three programs may round differently, so FINE and WIDE, which `enlarged` covers or reads, draw a little longer.
   bool drawn = FINE == 1 ? width < 3.501 : width >= (WIDE == 1 ? 3.499 : 3.5);
 #else
   const bool drawn = true;
 #endif
 #if WIDE || defined HAS_ENLARGED
-  // The picture in the small target, a pixel off the rim for linear lookups. Two pixels a texel are enough for texels up to 5.7 wide in the
-  // picture, of which the small target has half; wider ones show their shape, and get more.
+  // `side`: the part of the small target that is drawn, less a pixel on each side for linear lookups. Its pixels are two of the picture's
+  // wide where all of it is drawn. Texels get two of its pixels, if it has them, and wider ones, which show their shape, more.
 #if WIDE
   vec2 small = viewport;
 #else
