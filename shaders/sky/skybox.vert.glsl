@@ -1,6 +1,6 @@
 // The environment as background. Directions are linear over the picture, and levels constant, so both are computed here.
 // Texels that are wide in the picture are smooth, and need fewer pixels than it has (near the poles they are narrow, and get softer):
-// defines WIDE   draws these for `enlarged` of skybox.frag.glsl: a "quad" in a target of half the picture's size, rounded up, and two more
+// defines WIDE   draws these for `enlarged` of skybox.frag.glsl: a "quad" in a target of half the picture's size, at least 4 x 4
 //         FINE   draws all others
 // params  rows   with WIDE, of the picture; see skybox.frag.glsl for the others
 #ifndef WIDE
