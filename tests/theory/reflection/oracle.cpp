@@ -94,20 +94,27 @@ ReflectionOracle::ReflectionOracle(const assets::ImageF& map) : width_(map.width
     }
 }
 
-Vec3 ReflectionOracle::texel(int x, int y) const {
-  x += x < 0 ? width_ : x < width_ ? 0 : -width_;  // at most one column beyond the map
-  y = std::clamp(y, 0, height_ - 1);
-  const Texel& texel = dim_[static_cast<std::size_t>(y * width_ + x)];
-  return {texel.r, texel.g, texel.b};
-}
-
-Vec3 ReflectionOracle::dimAt(Vec3 d) const {
+inline ReflectionOracle::Place ReflectionOracle::placeOf(Vec3 d) const {
   const double x = (std::atan2(d.z, d.x) / (2 * std::numbers::pi) + 0.5) * width_ - 0.5;
   const double y = (0.5 - std::asin(std::clamp(d.y, -1.0, 1.0)) / std::numbers::pi) * height_ - 0.5;
   const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
-  const double fx = x - left, fy = y - top;
-  return (texel(left, top) * (1 - fx) + texel(left + 1, top) * fx) * (1 - fy) +
-         (texel(left, top + 1) * (1 - fx) + texel(left + 1, top + 1) * fx) * fy;
+  const auto column = [&](int at) { return at < 0 ? at + width_ : at < width_ ? at : at - width_; };
+  const auto row = [&](int at) {
+    return &dim_[static_cast<std::size_t>(std::clamp(at, 0, height_ - 1) * width_)];
+  };
+  const Texel *upper = row(top), *lower = row(top + 1);
+  const int l = column(left), r = column(left + 1);
+  return {upper + l, upper + r, lower + l, lower + r, x - left, y - top};
+}
+
+inline Vec3 ReflectionOracle::between(const Place& at) {
+  const auto light = [](const Texel* texel) { return Vec3{texel->r, texel->g, texel->b}; };
+  return (light(at.upper_left) * (1 - at.x) + light(at.upper_right) * at.x) * (1 - at.y) +
+         (light(at.lower_left) * (1 - at.x) + light(at.lower_right) * at.x) * at.y;
+}
+
+Vec3 ReflectionOracle::dimAt(Vec3 direction) const {
+  return between(placeOf(direction));
 }
 
 Vec3 ReflectionOracle::lookUp(Vec3 d) const {
@@ -155,15 +162,28 @@ Vec3 ReflectionOracle::radiance(Vec3 n, Vec3 v, const Metal& metal, int samples,
   const std::vector<Turn>& turns = evenTurns();
   assert(static_cast<std::size_t>(samples) <= turns.size());
   Vec3 sum;
-  for (int i = 0; i < samples; ++i) {
-    const double u = (i + shiftU) / samples;
-    const Turn& turn = turns[static_cast<std::size_t>(i)];
-    const double nh = std::sqrt((1 - u) / (1 + (a * a - 1) * u)), sh = std::sqrt(std::max(0.0, 1 - nh * nh));
-    const Vec3 h = n * nh + first * (sh * turn.cosine) + second * (sh * turn.sine);
-    const double vh = dot(v, h);
-    const Vec3 l = h * (2 * vh) - v;
-    const double nl = dot(n, l);
-    if (vh > 0 && nl > 0) sum = sum + dimAt(l) * (vh / ((1 + lambdaV + smithLambda(nl, a)) * nv * nh));
+  // Samples lie far apart in the map, which no cache holds: the texels of several are fetched while others are worked on.
+  constexpr int kAtOnce = 32;
+  Place places[kAtOnce];
+  double weights[kAtOnce];
+  for (int begin = 0; begin < samples; begin += kAtOnce) {
+    int count = 0;
+    for (int i = begin; i < std::min(begin + kAtOnce, samples); ++i) {
+      const double u = (i + shiftU) / samples;
+      const Turn& turn = turns[static_cast<std::size_t>(i)];
+      const double nh = std::sqrt((1 - u) / (1 + (a * a - 1) * u)),
+                   sh = std::sqrt(std::max(0.0, 1 - nh * nh));
+      const Vec3 h = n * nh + first * (sh * turn.cosine) + second * (sh * turn.sine);
+      const double vh = dot(v, h);
+      const Vec3 l = h * (2 * vh) - v;
+      const double nl = dot(n, l);
+      if (vh <= 0 || nl <= 0) continue;
+      const Place& place = places[count] = placeOf(l);
+      __builtin_prefetch(place.upper_left);
+      __builtin_prefetch(place.lower_left);
+      weights[count++] = vh / ((1 + lambdaV + smithLambda(nl, a)) * nv * nh);
+    }
+    for (int i = 0; i < count; ++i) sum = sum + between(places[i]) * weights[i];
   }
   sum = sum * (1.0 / samples);
   for (const Patch& patch : bright_) {

@@ -43,12 +43,18 @@ class ReflectionOracle {
   const std::vector<Patch>& bright() const { return bright_; }  // what is above kBright
 
  private:
-  Vec3 texel(int x, int y) const;
-
-  int width_ = 0, height_ = 0;
-  struct Texel {
+  struct alignas(16) Texel {
     float r, g, b;
   };
+  // Between four texels of dim_.
+  struct Place {
+    const Texel *upper_left, *upper_right, *lower_left, *lower_right;
+    double x, y;
+  };
+  Place placeOf(Vec3 direction) const;
+  static Vec3 between(const Place& place);
+
+  int width_ = 0, height_ = 0;
   std::vector<Texel> dim_, whole_;  // up to kBright; everything
   std::vector<Patch> bright_;       // above it
   std::vector<Patch> coarse_;       // dim_, in cells
