@@ -73,13 +73,13 @@ struct Seen {
 };
 
 // What a pixel's center shows; empty at edges, where neighbors show something else, and in the sky.
-std::optional<Seen> seenAt(const scene::Scene& scene, double x, double y) {
+std::optional<Seen> seenAt(const Triangles& triangles, double x, double y) {
   const auto shown = [&](double px, double py) -> std::optional<Seen> {
     const glm::dvec3 forward = glm::normalize(-kEye), right = glm::normalize(glm::cross(forward, {0, 1, 0}));
     const double slope = std::tan(kFov / 720 * kTurn);
     const double u = (2 * px / kWide - 1) * slope * kWide / kHigh, v = (2 * py / kHigh - 1) * slope;
     const glm::dvec3 way = glm::normalize(forward + right * u + glm::cross(right, forward) * v);
-    const Hit mesh = meetTriangles(scene, kEye, way), ball = meetBall(kEye, way);
+    const Hit mesh = triangles.meet(kEye, way), ball = meetBall(kEye, way);
     const double ground = way.y < 0 ? -kEye.y / way.y : 1e29;
     const double nearest = std::min({mesh.distance, ball.distance, ground});
     if (nearest > 1e20) return {};
@@ -96,8 +96,8 @@ std::optional<Seen> seenAt(const scene::Scene& scene, double x, double y) {
   return here;
 }
 
-bool isHidden(const scene::Scene& scene, const Seen& seen, glm::dvec3 way) {
-  return meetTriangles(scene, seen.at + seen.normal * 1e-5, way).distance < 1e20;
+bool isHidden(const Triangles& triangles, const Seen& seen, glm::dvec3 way) {
+  return triangles.meetsAny(seen.at + seen.normal * 1e-5, way);
 }
 
 struct Errors {
@@ -106,22 +106,22 @@ struct Errors {
 };
 
 // The share of `rays` directions that meet nothing.
-double openShare(const scene::Scene& scene, const Seen& seen, int rays,
+double openShare(const Triangles& triangles, const Seen& seen, int rays,
                  const std::function<glm::dvec3()>& direction) {
   int open = 0;
-  for (int i = 0; i < rays; ++i) open += !isHidden(scene, seen, direction());
+  for (int i = 0; i < rays; ++i) open += !isHidden(triangles, seen, direction());
   return double(open) / rays;
 }
 
 // The share that shadows leave of the radiance without them, against the truth; `axes` go to the lights.
-Errors compare(const Frame& frame, const scene::Scene& scene, const std::vector<float>& with,
+Errors compare(const Frame& frame, const Triangles& triangles, const std::vector<float>& with,
                const std::vector<float>& without, const std::vector<glm::dvec3>& axes,
                const std::function<double(const Seen&)>& truthOf) {
   Errors errors;
   for (std::uint32_t y = 1; y < kHigh - 1; ++y)
     for (std::uint32_t x = 1; x < kWide - 1; ++x) {
       const std::size_t texel = 4 * (std::size_t{y} * kWide + x);
-      const std::optional<Seen> seen = seenAt(scene, x, y);
+      const std::optional<Seen> seen = seenAt(triangles, x, y);
       if (!seen || !std::ranges::count(frame.shown, seen->kind)) continue;
       if (std::ranges::any_of(axes, [&](glm::dvec3 axis) {
             // On the ground, where the ray-traced sphere takes nothing by itself.
@@ -154,13 +154,14 @@ TEST_CASE("mesh shadows: what is left of the sun's disc on ground, meshes and sp
     scene::Sun sun{.direction = glm::normalize(glm::vec3(-0.45f, 0.75f, 0.35f)), .angle = degrees};
     sun.irradiance = glm::vec3(3);
     const scene::Scene scene = furniture(sun);
+    const Triangles triangles(scene);
     const auto dark = constantEnvironment(0, 0, 0);
     const glm::dvec3 axis(sun.direction);
     const auto direction = [&] { return inCone(axis, double(degrees) / 720 * kTurn, random); };
     for (const Frame& frame : {kStudio, kDeferred}) {
-      Errors errors =
-          compare(frame, scene, radianceOf(frame, scene, true, dark), radianceOf(frame, scene, false, dark),
-                  {axis}, [&](const Seen& seen) { return openShare(scene, seen, 64, direction); });
+      Errors errors = compare(frame, triangles, radianceOf(frame, scene, true, dark),
+                              radianceOf(frame, scene, false, dark), {axis},
+                              [&](const Seen& seen) { return openShare(triangles, seen, 64, direction); });
       for (const Kind kind : frame.shown) {
         std::vector<double>& all = errors.all[kind];
         const double mean = meanOf(all), high = percentileOf(all, 0.99);
@@ -189,11 +190,12 @@ TEST_CASE("mesh shadows: what is left of the environment's brightest spot") {
     });
     std::uniform_real_distribution<double> share(0, 3);
     const scene::Scene scene = furniture({});
+    const Triangles triangles(scene);
     const auto direction = [&] { return towards(left + share(random), top + share(random)); };
     for (const Frame& frame : {kStudio, kDeferred}) {
-      Errors errors = compare(frame, scene, radianceOf(frame, scene, true, lit),
+      Errors errors = compare(frame, triangles, radianceOf(frame, scene, true, lit),
                               radianceOf(frame, scene, false, lit), {towards(left + 1.5, top + 1.5)},
-                              [&](const Seen& seen) { return openShare(scene, seen, 64, direction); });
+                              [&](const Seen& seen) { return openShare(triangles, seen, 64, direction); });
       for (const Kind kind : frame.shown) {
         std::vector<double>& all = errors.all[kind];
         const double mean = meanOf(all), high = percentileOf(all, 0.99);
@@ -231,6 +233,7 @@ TEST_CASE("mesh shadows: of four windows each casts its own, as a sum over all t
   for (const Window& window : windows) axes.push_back(towards(window.left + 1.5, window.top + 1.5));
 
   const scene::Scene scene = furniture({});
+  const Triangles triangles(scene);
   std::vector<std::size_t> missing;  // on the ground: the window whose light is missing, if it is one alone
   const auto truthOf = [&](const Seen& seen) {
     double all = 0, left = 0;
@@ -244,7 +247,7 @@ TEST_CASE("mesh shadows: of four windows each casts its own, as a sum over all t
           for (const double aside : {1 / 6.0, 0.5, 5 / 6.0}) {
             const glm::dvec3 way = towards(x + aside, y + down);
             const double light = windows[i].radiance * solid * std::max(glm::dot(seen.normal, way), 0.0);
-            const bool past = !isHidden(scene, seen, way);
+            const bool past = !isHidden(triangles, seen, way);
             all += light;
             left += past ? light : 0;
             open[i] += past;
@@ -256,14 +259,14 @@ TEST_CASE("mesh shadows: of four windows each casts its own, as a sum over all t
     if (seen.kind == kGround) missing.push_back(hidden == 1 ? which : windows.size());
     return left / all;
   };
-  Errors errors = compare(kStudio, scene, radianceOf(kStudio, scene, true, map),
+  Errors errors = compare(kStudio, triangles, radianceOf(kStudio, scene, true, map),
                           radianceOf(kStudio, scene, false, map), axes, truthOf);
   std::vector<double>& all = errors.all[kGround];  // others have a gloss, too
   const double mean = meanOf(all), high = percentileOf(all, 0.99);
   MESSAGE(all.size(), " points, mean ", mean, ", 99 % below ", high);
   CHECK(all.size() > 2000);
   CHECK(mean < kSpot[kGround]);
-  Errors deferred = compare(kDeferred, scene, radianceOf(kDeferred, scene, true, map),
+  Errors deferred = compare(kDeferred, triangles, radianceOf(kDeferred, scene, true, map),
                             radianceOf(kDeferred, scene, false, map), axes, truthOf);
   MESSAGE("deferred, meshes with a gloss: mean ", meanOf(deferred.all[kMesh]));
   CHECK(deferred.all[kMesh].size() > 200);
@@ -283,10 +286,11 @@ TEST_CASE("mesh shadows: what is left of the sky on the ground") {
   std::mt19937 random(13);
   std::uniform_real_distribution<double> share(0, 1);
   const scene::Scene scene = furniture({});
+  const Triangles triangles(scene);
   const auto white = constantEnvironment(1, 1, 1);
-  Errors errors = compare(kStudio, scene, radianceOf(kStudio, scene, true, white),
+  Errors errors = compare(kStudio, triangles, radianceOf(kStudio, scene, true, white),
                           radianceOf(kStudio, scene, false, white), {{0, 1, 0}}, [&](const Seen& seen) {
-                            return openShare(scene, seen, 400, [&] {
+                            return openShare(triangles, seen, 400, [&] {
                               const double radius2 = share(random), turn = kTurn * share(random);
                               return glm::dvec3(std::sqrt(radius2) * std::cos(turn), std::sqrt(1 - radius2),
                                                 std::sqrt(radius2) * std::sin(turn));

@@ -1,4 +1,4 @@
-// What the tests of shadows share: rays to every triangle of a scene, and what a frame makes of it with and without shadows.
+// What the tests of shadows share: rays around an axis, and what a frame makes of a scene with and without shadows.
 #pragma once
 
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/theory/mesh_scene.h"
+#include "tests/theory/shadows/triangles.h"
 
 namespace weft::theory {
 
@@ -22,35 +23,6 @@ struct Frame {
   std::vector<Kind> shown;
   std::vector<graph::Setting> sets{};
 };
-
-struct Hit {
-  double distance = 1e30;
-  glm::dvec3 normal{0};
-};
-
-// The nearest triangle, by Cramer's rule for its two edges and the ray.
-inline Hit meetTriangles(const scene::Scene& scene, glm::dvec3 from, glm::dvec3 way) {
-  Hit hit;
-  for (const scene::MeshInstance& instance : scene.meshInstances.rows()) {
-    const scene::Mesh& mesh = *scene.meshes.find(instance.mesh);
-    const glm::dvec3 moved(scene.nodes.find(instance.node)->local.translation);
-    const auto corner = [&](std::uint32_t i) {
-      return moved +
-             glm::dvec3(
-                 scene.meshData->vertices[mesh.firstVertex + scene.meshData->indices[mesh.firstIndex + i]]
-                     .position);
-    };
-    for (std::uint32_t i = 0; i < mesh.indexCount; i += 3) {
-      const glm::dvec3 a = corner(i), one = corner(i + 1) - a, two = corner(i + 2) - a;
-      const glm::dmat3 sides(one, two, -way);
-      if (std::abs(glm::determinant(sides)) < 1e-12) continue;
-      const glm::dvec3 met = glm::inverse(sides) * (from - a);
-      if (met.x < 0 || met.y < 0 || met.x + met.y > 1 || met.z <= 0 || met.z >= hit.distance) continue;
-      hit = {met.z, glm::normalize(glm::cross(one, two))};
-    }
-  }
-  return hit;
-}
 
 inline glm::dvec3 inCone(glm::dvec3 axis, double angle, std::mt19937& random) {
   std::uniform_real_distribution<double> share(0, 1);

@@ -58,25 +58,28 @@ std::vector<Point> compare(const scene::Scene& scene, const std::string& graph, 
                            without = radianceOf(frame, shown, false, around);
   std::mt19937 random(21);
   const glm::dvec3 axis(scene.sun->direction);
+  const Triangles triangles(scene);
+  const auto metAt = [&](double px, double py) {
+    const glm::dvec3 forward = glm::normalize(-kEye), right = glm::normalize(glm::cross(forward, {0, 1, 0}));
+    const double slope = std::tan(kFov / 720 * kTurn);
+    const double u = (2 * px / kWide - 1) * slope * kWide / kHigh, v = (2 * py / kHigh - 1) * slope;
+    const glm::dvec3 way = glm::normalize(forward + right * u + glm::cross(right, forward) * v);
+    return kEye + way * std::min(triangles.meet(kEye, way).distance, 1e6);
+  };
+  std::vector<bool> on_plain;  // corners of pixels
+  for (std::uint32_t y = 0; y <= kHigh; ++y)
+    for (std::uint32_t x = 0; x <= kWide; ++x) on_plain.push_back(std::abs(metAt(x, y).y) < 1e-6);
+  const auto onPlain = [&](std::uint32_t x, std::uint32_t y) {
+    return on_plain[std::size_t{y} * (kWide + 1) + x];
+  };
   std::vector<Point> points;
   for (std::uint32_t y = 0; y < kHigh; ++y)
     for (std::uint32_t x = 0; x < kWide; ++x) {
-      const auto metAt = [&](double px, double py) {
-        const glm::dvec3 forward = glm::normalize(-kEye),
-                         right = glm::normalize(glm::cross(forward, {0, 1, 0}));
-        const double slope = std::tan(kFov / 720 * kTurn);
-        const double u = (2 * px / kWide - 1) * slope * kWide / kHigh, v = (2 * py / kHigh - 1) * slope;
-        const glm::dvec3 way = glm::normalize(forward + right * u + glm::cross(right, forward) * v);
-        return kEye + way * std::min(meetTriangles(scene, kEye, way).distance, 1e6);
-      };
-      const auto onPlain = [&](double px, double py) { return std::abs(metAt(px, py).y) < 1e-6; };
       if (!onPlain(x, y) || !onPlain(x + 1, y) || !onPlain(x, y + 1) || !onPlain(x + 1, y + 1)) continue;
       const glm::dvec3 at = metAt(x + 0.5, y + 0.5) + glm::dvec3(0, 1e-5, 0);
       int open = 0;
       for (int i = 0; i < rays; ++i)
-        open +=
-            meetTriangles(scene, at, inCone(axis, double(scene.sun->angle) / 720 * kTurn, random)).distance >
-            1e20;
+        open += !triangles.meetsAny(at, inCone(axis, double(scene.sun->angle) / 720 * kTurn, random));
       const std::size_t texel = 4 * (std::size_t{y} * kWide + x);
       const double truth = double(open) / rays;
       points.push_back(
