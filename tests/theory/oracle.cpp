@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace weft::theory {
 
@@ -34,19 +35,20 @@ struct Frame {
 // The albedo is the integral over half vectors of D (N.H) dH times F G2 (V.H) / ((N.V) (N.H)). With tan(theta) =
 // alpha tan(psi), D (N.H) dH becomes sin(2 psi) dpsi dphi / (2 pi): smooth for every roughness.
 Albedo directionalAlbedo(double nv, double roughness, int steps) {
-  const double alpha = roughness * roughness, sv = std::sqrt(1 - nv * nv);
+  const double alpha = roughness * roughness, sv = std::sqrt(1 - nv * nv), lambdaV = lambda(nv, alpha);
+  std::vector<double> cosines;  // of phi: what is integrated is even in it
+  for (int j = 0; j < steps; ++j) cosines.push_back(std::cos(kPi * (j + 0.5) / steps));
   Albedo sum;
   for (int i = 0; i < steps; ++i) {
     const double psi = (i + 0.5) / steps * kPi / 2, tangent = alpha * std::tan(psi);
     const double nh = 1 / std::sqrt(1 + tangent * tangent), sh = tangent * nh;
     const double weight = std::sin(2 * psi) * (kPi / 2 / steps) / steps;
-    for (int j = 0; j < steps; ++j) {
-      const double phi = kPi * (j + 0.5) / steps;  // even in phi
-      const double vh = sv * sh * std::cos(phi) + nv * nh;
+    for (const double cosine : cosines) {
+      const double vh = sv * sh * cosine + nv * nh;
       const double nl = 2 * vh * nh - nv;
       if (vh <= 0 || nl <= 0) continue;
-      const double masking = 1 / (1 + lambda(nv, alpha) + lambda(nl, alpha));
-      const double value = weight * masking * vh / (nv * nh), fresnel = std::pow(1 - vh, 5);
+      const double masking = 1 / (1 + lambdaV + lambda(nl, alpha)), left = 1 - vh;
+      const double value = weight * masking * vh / (nv * nh), fresnel = left * left * left * left * left;
       sum.scale += value * (1 - fresnel);
       sum.bias += value * fresnel;
     }

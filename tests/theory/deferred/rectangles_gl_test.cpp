@@ -72,6 +72,8 @@ double radianceOf(const Seen& seen, glm::dvec3 eye, const Rectangle& lamp, bool 
   const double multiple = single * average * lost / (1 - lost * average);
   const double diffuse = metal ? 0 : 1 - single - multiple;
   const auto [across, up] = axesOf(lamp);
+  const glm::dvec3 ahead = glm::normalize(lamp.direction);
+  const double lambdaV = lambda(nv, alpha);
   double sum = 0;
   for (int i = 0; i < steps; ++i)
     for (int j = 0; j < steps; ++j) {
@@ -79,11 +81,12 @@ double radianceOf(const Seen& seen, glm::dvec3 eye, const Rectangle& lamp, bool 
                             up * ((2 * j + 1.0) / steps - 1) - seen.position;
       const double distance2 = glm::dot(to, to);
       const glm::dvec3 l = to / std::sqrt(distance2), h = glm::normalize(l + v);
-      const double nl = glm::dot(l, seen.normal), from = -glm::dot(l, glm::normalize(lamp.direction));
+      const double nl = glm::dot(l, seen.normal), from = -glm::dot(l, ahead);
       if (nl <= 0 || from <= 0) continue;
       const double nh = glm::dot(seen.normal, h), d = nh * nh * (alpha * alpha - 1) + 1;
-      const double microfacets = alpha * alpha / (kPi * d * d) / (1 + lambda(nl, alpha) + lambda(nv, alpha)) /
-                                 (4 * nl * nv) * (f0 + (1 - f0) * std::pow(1 - glm::dot(v, h), 5));
+      const double left = 1 - glm::dot(v, h), fresnel = f0 + (1 - f0) * left * left * left * left * left;
+      const double microfacets =
+          alpha * alpha / (kPi * d * d) / (1 + lambda(nl, alpha) + lambdaV) / (4 * nl * nv) * fresnel;
       sum += (microfacets + (multiple + diffuse) / kPi) * nl * from / distance2;
     }
   return sum * lamp.width * lamp.height / (steps * steps);
@@ -131,15 +134,16 @@ class Judge {
   Found operator()(const Rectangle& lamp, glm::dvec3 eye, bool ball, bool metal, int step) {
     const double roughness = step / 255.0;
     std::vector<std::pair<std::size_t, double>> pixels;
-    double brightest = 0;
+    const bool is_new = lamp.name != lit_by_;
+    if (is_new) brightest_ = 0, lit_by_ = lamp.name;  // the same for all materials
     for (std::uint32_t i = 0; i < kWidth * kHeight; i += 31) {
       const Seen seen = seenAt(i % kWidth, i / kWidth, eye, ball);
       if (!seen.there || distanceTo(lamp, seen.position) < 0.3 || glm::length(seen.position) > 6) continue;
       pixels.emplace_back(i, radianceOf(seen, eye, lamp, metal, roughness, step < 50 ? 160 : 64));
-      brightest = std::max(brightest, radianceOf(seen, eye, lamp, false, 1, 16));
+      if (is_new) brightest_ = std::max(brightest_, radianceOf(seen, eye, lamp, false, 1, 16));
     }
     CHECK(pixels.size() > 40);
-    const double radiance = brightest > 0 ? 1 / brightest : 1;
+    const double radiance = brightest_ > 0 ? 1 / brightest_ : 1;
     const scene::Scene scene = sceneOf(eye, lamp, ball, metal, roughness, static_cast<float>(radiance));
     const std::vector<float> taken = (ball ? ball_.take(scene, kBall) : floor_.take(scene, kFloor)).radiance;
     Found found;
@@ -160,6 +164,8 @@ class Judge {
                                   .sets = {{"ao", "false"}, {"mesh_shadows", "false"}}},
       kBall{.graph = "graphs/studio.json", .width = kWidth, .height = kHeight, .environment = 0};
   Camera floor_{kFloor}, ball_{kBall};
+  std::string lit_by_;
+  double brightest_ = 0;
 };
 
 }  // namespace

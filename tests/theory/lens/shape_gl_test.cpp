@@ -148,6 +148,8 @@ Shape shapeOf(const Light& light) {
   const double side = light.near ? -1 : 1;
   const double inner =
       light.blades < 3 ? radius : radius * std::cos(M_PI / light.blades);  // wholly inside the outline
+  double extent = 0;  // from a pixel's middle to its farthest place as seen from a point of the emitter
+  for (const auto& [sx, sy] : emitter.points) extent = std::max(extent, std::hypot(sx, sy) + std::sqrt(0.5));
   std::vector<double> ideal, found;
   double sharp = 0, sumIdeal = 0, sumFound = 0;
   for (std::uint32_t y = 0; y < light.height; ++y)
@@ -156,7 +158,10 @@ Shape shapeOf(const Light& light) {
       found.push_back(double(panels.at(light.width + x, y)[1]) - background);
       sumFound += found.back();
       double here = 0;
-      if (std::hypot(x + 0.5 - emitter.x, y + 0.5 - emitter.y) < radius + 4)
+      const double away = std::hypot(x + 0.5 - emitter.x, y + 0.5 - emitter.y);
+      if (away + extent < inner)
+        here = 16.0 * static_cast<double>(emitter.points.size());  // wholly inside
+      else if (away < radius + extent)
         for (int k = 0; k < 16; ++k)
           for (const auto& [sx, sy] : emitter.points) {
             const double px = side * (x + (k % 4 + 0.5) / 4 - emitter.x - sx),
