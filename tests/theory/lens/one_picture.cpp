@@ -17,14 +17,14 @@ OnePicture::OnePicture(std::vector<Ball> balls, const scene::CameraKey& camera, 
       width_(int(width)),
       height_(int(height)),
       view_(viewOf(camera)),
-      targets_(targetsFrom(view_.eye, 0)),
+      targets_(targetsFrom(view_, 0)),
       picture_(std::move(picture)),
       true_colors_(picture_.size()),
       its_colors_(picture_.size()) {
   std::vector<int> seen;
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x)
-      seen.push_back(hitOf(targets_, view_.eye, rayOf(view_, {x + 0.5, y + 0.5})).ball);
+      seen.push_back(hitOf(targets_, view_.eye, {x + 0.5, y + 0.5}, rayOf(view_, {x + 0.5, y + 0.5})).ball);
   balls_seen_ = seen;
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x)
@@ -53,19 +53,35 @@ glm::dvec3 OnePicture::rayOf(const View& view, glm::dvec2 pixel) const {
   return view.ahead + slope.x * view.right + slope.y * view.up;
 }
 
-std::vector<OnePicture::Target> OnePicture::targetsFrom(glm::dvec3 eye, double seconds) const {
+// By the tangents to the ball's circle in the plane of an axis and the view, and a pixel more.
+std::vector<OnePicture::Target> OnePicture::targetsFrom(const View& view, double seconds) const {
+  constexpr double kEverywhere = 1e30;
   std::vector<Target> targets;
   for (const Ball& ball : balls_) {
-    const glm::dvec3 to = glm::dvec3(ball.center) + seconds * glm::dvec3(ball.velocity) - eye;
-    targets.push_back({to, glm::dot(to, to) - double(ball.radius) * double(ball.radius)});
+    const glm::dvec3 to = glm::dvec3(ball.center) + seconds * glm::dvec3(ball.velocity) - view.eye;
+    Target target{to, glm::dot(to, to) - double(ball.radius) * double(ball.radius), glm::dvec2(-kEverywhere),
+                  glm::dvec2(kEverywhere)};
+    for (int axis = 0; axis < 2; ++axis) {
+      const double aside = glm::dot(to, axis == 0 ? view.right : view.up), deep = glm::dot(to, view.ahead),
+                   away = std::hypot(aside, deep), middle = (axis == 0 ? width_ : height_) / 2.0;
+      if (away <= double(ball.radius)) continue;
+      const double angle = std::atan2(aside, deep), half = std::asin(double(ball.radius) / away);
+      if (std::abs(angle) + half > 1.5) continue;
+      target.least[axis] = middle + view.focal * std::tan(angle - half) - 1;
+      target.most[axis] = middle + view.focal * std::tan(angle + half) + 1;
+    }
+    targets.push_back(target);
   }
   return targets;
 }
 
-OnePicture::Hit OnePicture::hitOf(const std::vector<Target>& targets, glm::dvec3 eye, glm::dvec3 ray) {
+OnePicture::Hit OnePicture::hitOf(const std::vector<Target>& targets, glm::dvec3 eye, glm::dvec2 pixel,
+                                  glm::dvec3 ray) {
   Hit hit{kSky, 1e30, ray};
   const double squared = glm::dot(ray, ray);
   for (std::size_t i = 0; i < targets.size(); ++i) {
+    const glm::dvec2 least = targets[i].least, most = targets[i].most;
+    if (pixel.y < least.y || pixel.y > most.y || pixel.x < least.x || pixel.x > most.x) continue;
     const double along = glm::dot(targets[i].to, ray), root = along * along - squared * targets[i].outside;
     if (root < 0) continue;
     const double distance = (along - std::sqrt(root)) / squared;
@@ -83,7 +99,7 @@ bool OnePicture::isVisible(const Hit& hit, glm::dvec2& pixel) const {
   pixel = glm::dvec2(width_, height_) / 2.0 +
           view_.focal / deep * glm::dvec2(glm::dot(ray, view_.right), glm::dot(ray, view_.up));
   if (pixel.x < 0 || pixel.y < 0 || pixel.x >= width_ || pixel.y >= height_) return false;
-  const Hit first = hitOf(targets_, view_.eye, ray);
+  const Hit first = hitOf(targets_, view_.eye, pixel, ray);
   return first.ball == hit.ball && (hit.ball == kSky || first.distance > 1 - 1e-6);
 }
 
@@ -112,10 +128,10 @@ int OnePicture::guess(int ball, glm::dvec2 pixel) const {
 
 void OnePicture::add(double seconds, const scene::CameraKey& camera, const Picture& sharp, double weight) {
   const View view = viewOf(camera);
-  const std::vector<Target> targets = targetsFrom(view.eye, seconds);
+  const std::vector<Target> targets = targetsFrom(view, seconds);
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x) {
-      Hit hit = hitOf(targets, view.eye, rayOf(view, {x + 0.5, y + 0.5}));
+      Hit hit = hitOf(targets, view.eye, {x + 0.5, y + 0.5}, rayOf(view, {x + 0.5, y + 0.5}));
       if (hit.ball != kSky) hit.position -= seconds * glm::dvec3(balls_[std::size_t(hit.ball)].velocity);
       glm::dvec2 pixel(x + 0.5, y + 0.5);
       const bool visible = isVisible(hit, pixel);

@@ -39,13 +39,14 @@ class OnePicture {
   };
   View viewOf(const scene::CameraKey& camera) const;
   glm::dvec3 rayOf(const View& view, glm::dvec2 pixel) const;
-  // The balls as they lie `seconds` after the picture's moment, seen from `eye`.
+  // The balls as they lie `seconds` after the picture's moment.
   struct Target {
     glm::dvec3 to;
-    double outside = 0;  // the distance squared, less the radius squared
+    double outside = 0;      // the distance squared, less the radius squared
+    glm::dvec2 least, most;  // pixels beyond which no ray meets it
   };
-  std::vector<Target> targetsFrom(glm::dvec3 eye, double seconds) const;
-  static Hit hitOf(const std::vector<Target>& targets, glm::dvec3 eye, glm::dvec3 ray);
+  std::vector<Target> targetsFrom(const View& view, double seconds) const;
+  static Hit hitOf(const std::vector<Target>& targets, glm::dvec3 eye, glm::dvec2 pixel, glm::dvec3 ray);
   bool isVisible(const Hit& hit, glm::dvec2& pixel) const;
   int guess(int ball, glm::dvec2 pixel) const;
 
