@@ -25,15 +25,22 @@ std::vector<Location> keysNamed(const Workspace& workspace, const Program& progr
   return keys;
 }
 
-// Adds every use of what is declared at `declared`.
+// Adds what is declared at `declared` and every use of it; where graphs share the file of a use, also what each of them declares.
 void usesInGraphs(const Workspace& workspace, Uses& uses, const Location& declared) {
-  for (const Graph* graph : workspace.graphs())
-    for (const graph::NameUse& use : workspace.usesOf(*graph))
-      if (use.name == uses.name && workspace.locate(use.declared, "") == declared)
-        if (const auto location = workspace.locate(use.place, uses.name)) {
-          uses.locations.insert(*location);
-          if (use.key) uses.keys.insert(*location);
-        }
+  const auto add = [&](const Location& it) {
+    return uses.locations.insert({it.path, {it.range.begin, it.range.begin + uses.name.size()}}).second;
+  };
+  const auto has = [&](const Location& it) { return uses.locations.contains(it) && !uses.keys.contains(it); };
+  add(declared);
+  for (bool grows = true; std::exchange(grows, false);)
+    for (const Graph* graph : workspace.graphs())
+      for (const graph::NameUse& use : workspace.usesOf(*graph)) {
+        if (use.name != uses.name) continue;
+        const auto at = workspace.locate(use.place, use.name), by = workspace.locate(use.declared, "");
+        if (!at || !by || !(has(*by) || (!use.key && has(*at)))) continue;
+        grows |= add(*by) | add(*at);
+        if (use.key) uses.keys.insert(*at);
+      }
 }
 
 // Adds every word `name` in the files of a slot's programs. A renamed program is consistent only with all of them, and so is
@@ -74,10 +81,7 @@ void usesOfKey(const Workspace& workspace, Uses& uses, Program program) {
   else
     uses.programs = {std::move(program)};
   for (const Program& each : uses.programs)
-    for (const Location& key : keysNamed(workspace, each, uses.name)) {
-      uses.locations.insert(key);
-      usesInGraphs(workspace, uses, key);
-    }
+    for (const Location& key : keysNamed(workspace, each, uses.name)) usesInGraphs(workspace, uses, key);
 }
 
 // Why what is used cannot have this name, or "".
@@ -93,9 +97,8 @@ std::string problemOf(const Workspace& workspace, const Uses& uses, const std::s
                          each.path);
   }
   for (const Graph* graph : workspace.graphs()) {
-    if (uses.ofShader) break;
     for (const graph::NameUse& use : workspace.usesOf(*graph))
-      if (use.name == name && use.kind == uses.kind && use.place == use.declared &&
+      if (!uses.ofShader && use.name == name && use.kind == uses.kind && use.place == use.declared &&
           std::ranges::any_of(uses.locations,
                               [&](const Location& each) { return each.path == *use.place.file; }))
         return fmt::format("'{}' is declared already in {}", name, *use.place.file);
@@ -135,8 +138,7 @@ Named namedAt(const Workspace& workspace, const Text& text, std::size_t offset) 
   const text::Place place = text.placeOf(offset);
   const auto take = [&](const Graph& graph, const text::Place& begin, const std::string& name) {
     const auto here = isAt(place, begin, name) ? workspace.locate(begin, name) : std::nullopt;
-    if (here) named.here = here->range;
-    if (here) named.graph = &graph;
+    if (here) named.here = here->range, named.graph = &graph;
     return here.has_value();
   };
   for (const Graph* graph : workspace.graphs()) {
@@ -235,8 +237,6 @@ Uses usesAt(const Workspace& workspace, const Text& text, std::size_t offset) {
   uses.found = true;
   uses.kind = named.use->kind;
   usesInGraphs(workspace, uses, *declared);
-  declared->range.end += uses.name.size();
-  uses.locations.insert(*declared);
   return uses;
 }
 

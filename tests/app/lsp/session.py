@@ -137,6 +137,7 @@ RENAMES = [  # in the bundled graphs: a file, what stands there, its part to ren
     ("graphs/lit.json", '"ground_sky":', "ground_sky"),               # a resource
     ("graphs/effects/sky.json", '"name": "skybox"', "skybox"),        # a pass
     ("graphs/studio.json", '"subdivision":', "subdivision"),          # a parameter
+    ("graphs/studio.json", '"sky_blur":', "sky_blur"),                # one that two graphs declare, and a file names that both include
     ("graphs/glow.json", '"result": "ldr"', "result"),                # a slot that most shaders have
 ]
 
