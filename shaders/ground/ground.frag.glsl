@@ -6,20 +6,31 @@
 //         sun_seen?, spots_seen?   r: share of the sun's; rgba: of each spot's; as sky
 //         light_maps?, light_depths?, scene_bounds?   shadows of meshes, see shading/mesh_shadow.glsl
 //         mesh_sky?    the share of the sky's light that meshes leave, see ground/mesh_sky.frag.glsl; `as linear`, with scene_bounds
+//         lamps?, brdf, ltc?, clusters?, slices?   see shading/lamps.glsl; brdf and ltc only with lamps
 //         air?         see fog/fog.glsl
 // modify  radiance     scene-referred; blend "premultiplied"
 //         velocity     screen UV per frame
 //         depth        near / distance along the view axis (reversed-Z)
-// params  sky_turn     rotation of the environment, in full turns
+// params  sky_turn, lamp_count?   see shading/parameters.glsl
 #include "fog/fog.glsl"
 #include "ibl/brightest.glsl"
 #include "shading/point.glsl"
+#include "shading/parameters.glsl"
+#ifndef HAS_SKY_TURN
+const float sky_turn = 0.0;
+#endif
 #if defined HAS_RADIANCE && defined HAS_LIGHT_MAPS && defined HAS_LIGHT_DEPTHS && defined HAS_SCENE_BOUNDS
 #define SEES_MESHES 1
-layout(std140) uniform Parameters { float sky_turn; };
 #include "shading/mesh_shadow.glsl"
 #else
 #define SEES_MESHES 0
+#endif
+#if defined HAS_RADIANCE && defined HAS_LAMPS
+#include "shading/material.glsl"
+// Of a white diffuse surface.
+vec3 ambientRadiance(Point point, Response response, Ambient ambient) { return ambient.mean; }
+vec3 directRadiance(Point point, Response response, vec3 l) { return vec3(max(dot(point.normal, l), 0.0) / kPi); }
+#include "shading/lamps.glsl"
 #endif
 #if defined HAS_MESH_SKY && defined HAS_SCENE_BOUNDS
 #include "ground/plain.glsl"
@@ -93,6 +104,11 @@ void main() {
 #endif
   vec3 arrives = from_sky * sky_seen + from_sun * seen.sun + from_spots * vec4(seen.spot, seen.others);
   float all = dot(from_sky + from_sun + from_spots * vec4(1.0), luminance), left = all > 0.0 ? dot(arrives, luminance) / all : 1.0;
+#ifdef HAS_LAMPS
+  const Response white = Response(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(1.0), 1.0, 1.0, 0.0, 0.0);
+  int tried;
+  arrives += lampsRadiance(Point(at, vec3(0.0, 1.0, 0.0), normalize(from - at), vec3(0.0), 1.0, 1.0), white, tried);
+#endif
   float radius = albedo_radius.w, surface = radius > 0.0 ? 1.0 - smoothstep(0.5 * radius, radius, length(at.xz)) : 0.0;
   float kept = min(left, 1.0);  // of the environment behind
   vec3 reflected = albedo_radius.rgb * arrives;

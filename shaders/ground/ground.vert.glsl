@@ -4,6 +4,7 @@
 #include "common/view.glsl"
 #include "ibl/brightest.glsl"
 #include "scene/ground.glsl"
+#include "shading/parameters.glsl"
 #ifdef HAS_SUN
 #include "scene/sun.glsl"
 #endif
@@ -11,7 +12,6 @@
 #ifdef HAS_IRRADIANCE
 uniform sampler2D irradiance;
 #endif
-layout(std140) uniform Parameters { float sky_turn; };
 
 noperspective out vec2 uv;
 flat out vec4 lens;         // a ray's slope is (ndc + xy) / zw
