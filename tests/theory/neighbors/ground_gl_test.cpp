@@ -140,7 +140,7 @@ TEST_CASE(
   Lab with(setup), without(bare);
   with.frame();
   without.frame();
-  CHECK(with.passNames().find("lit.ground\n") != std::string::npos);
+  CHECK(with.passNames().find("lit.ground.surface\n") != std::string::npos);
   CHECK(without.passNames().find("ground") == std::string::npos);
   setup.ground->albedo = glm::vec3(0.5f, 0.25f, 0.125f);
   setup.ground->radius = 1000;
@@ -208,9 +208,9 @@ TEST_CASE("ground: spheres that are not drawn leave it as it is in a scene witho
       lab->frame();
       CHECK(lab->reports() == "");
     }
-    CHECK(whole.passNames().find("lit.ground_contact\n") != std::string::npos);
+    CHECK(whole.passNames().find("lit.ground.contact\n") != std::string::npos);
     for (const char* marks :
-         {"lit.ground_cover\n", "lit.ground_contact\n", "lit.ground_sun\n", "lit.ground_spots\n"})
+         {"lit.ground.cover\n", "lit.ground.contact\n", "lit.ground.sun\n", "lit.ground.spots\n"})
       CHECK(bare.passNames().find(marks) == std::string::npos);
     const Picture drawn = whole.read("hdr"), without = bare.read("hdr"), never = empty.read("hdr");
     CHECK(without.texels == never.texels);
