@@ -43,8 +43,7 @@ void usesInGraphs(const Workspace& workspace, Uses& uses, const Location& declar
       }
 }
 
-// Adds every word `name` in the files of a slot's programs. A renamed program is consistent only with all of them, and so is
-// every other program that has one of these files; so the set of files grows until it has the files of all such programs.
+// Adds every word `name` in the files of a slot's programs, and of all that share one of these: they are consistent only together.
 void usesInShaders(const Workspace& workspace, Uses& uses, std::set<std::string> files) {
   const std::string presence = glsl::presenceDefineOf(uses.name);
   const auto eachMention = [&](const std::string& path, auto&& f) {
@@ -97,8 +96,9 @@ std::string problemOf(const Workspace& workspace, const Uses& uses, const std::s
                          each.path);
   }
   for (const Graph* graph : workspace.graphs()) {
+    if (uses.ofShader) break;
     for (const graph::NameUse& use : workspace.usesOf(*graph))
-      if (!uses.ofShader && use.name == name && use.kind == uses.kind && use.place == use.declared &&
+      if (use.name == name && use.kind == uses.kind && use.place == use.declared &&
           std::ranges::any_of(uses.locations,
                               [&](const Location& each) { return each.path == *use.place.file; }))
         return fmt::format("'{}' is declared already in {}", name, *use.place.file);

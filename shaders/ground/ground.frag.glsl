@@ -104,12 +104,13 @@ void main() {
 #endif
   vec3 arrives = from_sky * sky_seen + from_sun * seen.sun + from_spots * vec4(seen.spot, seen.others);
   float all = dot(from_sky + from_sun + from_spots * vec4(1.0), luminance), left = all > 0.0 ? dot(arrives, luminance) / all : 1.0;
+  float radius = albedo_radius.w, surface = radius > 0.0 ? 1.0 - smoothstep(0.5 * radius, radius, length(at.xz)) : 0.0;
 #ifdef HAS_LAMPS
   const Response white = Response(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(1.0), 1.0, 1.0, 0.0, 0.0);
   int tried;
-  arrives += lampsRadiance(Point(at, vec3(0.0, 1.0, 0.0), normalize(from - at), vec3(0.0), 1.0, 1.0), white, tried);
+  if (surface > 0.0)
+    arrives += lampsRadiance(Point(at, vec3(0.0, 1.0, 0.0), normalize(from - at), vec3(0.0), 1.0, 1.0), white, tried);
 #endif
-  float radius = albedo_radius.w, surface = radius > 0.0 ? 1.0 - smoothstep(0.5 * radius, radius, length(at.xz)) : 0.0;
   float kept = min(left, 1.0);  // of the environment behind
   vec3 reflected = albedo_radius.rgb * arrives;
 #ifdef HAS_AIR

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """The judge of depth of field: against the mean of sharp pictures from places all over the lens, each shifted so that what is in focus stays.
 
-    lens.py WEFT [--only NAME] [--points 256] [--size 480x270] [--keep FOLDER]
+    lens.py WEFT [--only NAME] [--points 256] [--size 960x540] [--keep FOLDER]
 
-The sharp pictures are Weft's, with two pixels along a pixel; how they are added up is all that a thin lens is. A glint is a dot in each of them:
-where one half of the places and the other differ by more than 8 of 255, and 4 pixels around, nothing is judged; nor at the border, where places look
-beyond it. Printed: of 255 after x / (1 + x) and gamma 2.2, of the worst channel, the mean, the 99th percentile, and how many are over 32. --keep: the
-mean, Weft's picture and eight times their difference, side by side. Needs numpy, and up to half an hour for all."""
+The sharp pictures are Weft's, with two pixels along a pixel; the judge's own part is how they are added up: that of a thin lens. Where one half of the
+places and the other differ by more than 8 of 255, and 4 pixels around, nothing is judged, since 256 places do not suffice for a glint; nor at the border,
+where places look beyond it. Printed: of 255 after x / (1 + x) and gamma 2.2, of the worst channel, the mean, the 99th percentile, and how many are over
+32. --keep: the mean, Weft's picture and eight times their difference, side by side. Needs numpy, and up to an hour for all."""
 import argparse
 import json
 import math
@@ -41,7 +41,7 @@ def bars(folder):
 
 # Name: graph, scene, camera, lens (focal length mm, f-number, focus in world units, blades), arguments, and what is added to the scene.
 HELMETS = {"position": [-0.28, 0.37, 2.05], "target": [0, 0.315, 0], "near": 0.01}
-PLAIN = ("--set=ao=false",)  # slow, and no matter of a lens
+PLAIN = ("--set=ao=false",)  # slow, and it depends on the place
 PORTRAIT_FOV = 2 * math.degrees(math.atan(12 / 85))
 CASES = {
     "wall": ("studio", "spheres", {"position": [0, 0, 20], "target": [0, 0, 0], "fov": 60}, (85, 1.4, 8, 0), (), None),
@@ -54,7 +54,7 @@ CASES = {
 
 
 def read_exr(path):
-    """Rows from the top, of R, G, B: scan lines of halves or floats, not compressed or ZIP."""
+    """As read_exr() of pictures.py, R, G and B alone, by numpy: there are hundreds of large ones."""
     data = path.read_bytes()
     at, attributes = 8, {}
     while data[at]:
@@ -183,7 +183,7 @@ def main():
     parser.add_argument("weft")
     parser.add_argument("--only", choices=CASES, action="append")
     parser.add_argument("--points", type=int, default=256)
-    parser.add_argument("--size", default="480x270")
+    parser.add_argument("--size", default="960x540")
     parser.add_argument("--keep", type=pathlib.Path)
     options = parser.parse_args()
     size = tuple(map(int, options.size.split("x")))
