@@ -1,12 +1,12 @@
-// The ground: its surface, lit by sky, sun and the brightest spots; beyond that the environment, darkened by the share of light that is
-// blocked. Spheres have drawn what they block before.
+// The ground: its surface, lit by sky, sun, the brightest spots and lamps; beyond that the environment, darkened by the share of light that is
+// blocked. What spheres block is drawn before.
 // read    ground       see scene/ground.glsl
 //         irradiance?, brightest?, sun?   see shading/environment.glsl, ibl/brightest.glsl, scene/sun.glsl
 //         sky?         rgb: share of the sky's light that arrives; the target's size, not `as linear`
 //         sun_seen?, spots_seen?   r: share of the sun's; rgba: of each spot's; as sky
 //         light_maps?, light_depths?, scene_bounds?   shadows of meshes, see shading/mesh_shadow.glsl
 //         mesh_sky?    the share of the sky's light that meshes leave, see ground/mesh_sky.frag.glsl; `as linear`, with scene_bounds
-//         lamps?, brdf, ltc?, clusters?, slices?   see shading/lamps.glsl; brdf and ltc only with lamps
+//         lamps?, brdf?, ltc?, lamp_maps?, clusters?, slices?   see shading/lamps.glsl; brdf with lamps
 //         air?         see fog/fog.glsl
 // modify  radiance     scene-referred; blend "premultiplied"
 //         velocity     screen UV per frame

@@ -134,7 +134,7 @@ def tree(folder):
 
 RENAMES = [  # in the bundled graphs: a file, what stands there, its part to rename
     ("graphs/lit.json", '"light_maps":', "light_maps"),               # a slot of many shaders
-    ("graphs/effects/ground.json", '"spots":', "spots"),              # a resource
+    ("graphs/effects/ground.json", '"casting_sun":', "casting_sun"),  # a resource
     ("graphs/effects/sky.json", '"name": "skybox"', "skybox"),        # a pass
     ("graphs/studio.json", '"subdivision":', "subdivision"),          # a parameter
     ("graphs/studio.json", '"sky_blur":', "sky_blur"),                # one that two graphs declare, and a file names that both include
