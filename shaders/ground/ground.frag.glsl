@@ -12,6 +12,7 @@
 //         velocity     screen UV per frame
 //         depth        near / distance along the view axis (reversed-Z)
 // params  sky_turn, lamp_count?   see shading/parameters.glsl
+// define  SURFACE_ALONE   nothing is drawn where there is no surface
 #include "fog/fog.glsl"
 #include "ibl/brightest.glsl"
 #include "shading/point.glsl"
@@ -75,6 +76,10 @@ void main() {
   float near = near_height.x, height = near_height.y, t = (height - from.y) / ray.y;
   if (from.y <= height || ray.y >= 0.0 || t < near) discard;
   vec3 at = from + ray * t;
+  float radius = albedo_radius.w, surface = radius > 0.0 ? 1.0 - smoothstep(0.5 * radius, radius, length(at.xz)) : 0.0;
+#ifdef SURFACE_ALONE
+  if (surface == 0.0) discard;
+#endif
 #ifdef HAS_RADIANCE
   vec3 sky_seen = vec3(1.0);
   LightsSeen seen = kOpen;
@@ -104,7 +109,6 @@ void main() {
 #endif
   vec3 arrives = from_sky * sky_seen + from_sun * seen.sun + from_spots * vec4(seen.spot, seen.others);
   float all = dot(from_sky + from_sun + from_spots * vec4(1.0), luminance), left = all > 0.0 ? dot(arrives, luminance) / all : 1.0;
-  float radius = albedo_radius.w, surface = radius > 0.0 ? 1.0 - smoothstep(0.5 * radius, radius, length(at.xz)) : 0.0;
 #ifdef HAS_LAMPS
   const Response white = Response(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(1.0), 1.0, 1.0, 0.0, 0.0);
   int tried;
