@@ -49,46 +49,52 @@ vec3 trace(vec3 from, vec3 direction) {
   vec2 edges = (mix(vec2(0.0), viewport, onwards) - start.xy) / way.xy;
   float end = min(min(edges.x, edges.y), 1.0), nudge = 0.01 / max(abs(way.x), abs(way.y));
 
-  int level = 0, last = textureQueryLevels(mirror_nearest);
+  int level = 0, last = textureQueryLevels(mirror_nearest), i = 0;
   float t = 0.0;
-  for (int i = 0; i < kSteps && t < end; ++i) {
-    float side = exp2(float(level));
-    ivec2 cell = ivec2(floor((start.xy + t * way.xy) / side));
-    vec2 sides = ((vec2(cell) + vec2(onwards)) * side - start.xy) / way.xy;
-    float leave = min(max(min(sides.x, sides.y), t) + nudge, end);
-    float z0 = start.z + t * way.z, z1 = start.z + leave * way.z;
-    float there = level == 0 ? depthAt(cell) : texelFetch(mirror_nearest, cell, level - 1).r;
-    if (there <= min(z0, z1)) {
-      t = leave;
-      level = min(level + 1, last);
-    } else if (level > 0) {
-      --level;
-    } else {
-      // How far the ray is before the surface's plane, on entering the pixel and on leaving it.
-      vec2 across = depthSlope(cell, there), center = vec2(cell) + 0.5;
-      float before0 = z0 - there - dot(across, start.xy + t * way.xy - center);
-      float before1 = z1 - there - dot(across, start.xy + leave * way.xy - center);
-      float width = depthOfPixel(there), same = kSame * width, fall = before0 - before1;
-      if (before1 < -same && cell != ivec2(gl_FragCoord.xy)) {
-        // It went through the surface here, or at most a pixel before, where the same surface still seemed to be behind it.
-        vec2 pixel = normalize(way.xy);
-        ivec2 previous = ivec2(floor(start.xy + t * way.xy - pixel));
-        bool same_surface = abs(depthAt(previous) - there - dot(across, vec2(previous - cell))) < 4.0 * width;
-        if (before0 >= -same || (same_surface && before0 * length((leave - t) * way.xy) >= -fall))
-          return start + (t + (leave - t) * clamp(before0 / max(fall, 1e-3 * same), 0.0, 1.0)) * way;
-#ifdef HAS_MIRROR_BACKS
-        // It came from aside and is in something, whose side the picture does not show but for what is next to its outline. There pixels
-        // have some of the light behind.
-        float back = backAt(cell);
-        if (back > 0.0 && back < there && max(z0, z1) > back) {
-          vec2 at = start.xy + t * way.xy;
-          if (way.z > 0.0 || there - max(z0, z1) > 6.0 * width) return vec3(0.0);
-          return vec3(depthAt(ivec2(floor(at + pixel))) > back ? at + pixel : at, there);
-        }
-#endif
-      }
-      t = leave;
+  while (i < kSteps && t < end) {
+    // To a pixel whose surface it may go through, in a loop of its own as in probeAlong() of reflections/probe.glsl.
+    ivec2 cell;
+    float leave, z0, z1, there;
+    bool through = false;
+    while (i < kSteps && t < end && !through) {
+      ++i;
+      float side = exp2(float(level));
+      cell = ivec2(floor((start.xy + t * way.xy) / side));
+      vec2 sides = ((vec2(cell) + vec2(onwards)) * side - start.xy) / way.xy;
+      leave = min(max(min(sides.x, sides.y), t) + nudge, end);
+      z0 = start.z + t * way.z;
+      z1 = start.z + leave * way.z;
+      there = level == 0 ? depthAt(cell) : texelFetch(mirror_nearest, cell, level - 1).r;
+      bool before = there <= min(z0, z1);
+      through = !before && level == 0;
+      if (before) t = leave;
+      level = before ? min(level + 1, last) : max(level - 1, 0);
     }
+    if (!through) break;
+    // How far the ray is before the surface's plane, on entering the pixel and on leaving it.
+    vec2 across = depthSlope(cell, there), center = vec2(cell) + 0.5;
+    float before0 = z0 - there - dot(across, start.xy + t * way.xy - center);
+    float before1 = z1 - there - dot(across, start.xy + leave * way.xy - center);
+    float width = depthOfPixel(there), same = kSame * width, fall = before0 - before1;
+    if (before1 < -same && cell != ivec2(gl_FragCoord.xy)) {
+      // It went through the surface here, or at most a pixel before, where the same surface still seemed to be behind it.
+      vec2 pixel = normalize(way.xy);
+      ivec2 previous = ivec2(floor(start.xy + t * way.xy - pixel));
+      bool same_surface = abs(depthAt(previous) - there - dot(across, vec2(previous - cell))) < 4.0 * width;
+      if (before0 >= -same || (same_surface && before0 * length((leave - t) * way.xy) >= -fall))
+        return start + (t + (leave - t) * clamp(before0 / max(fall, 1e-3 * same), 0.0, 1.0)) * way;
+#ifdef HAS_MIRROR_BACKS
+      // It came from aside and is in something, whose side the picture does not show but for what is next to its outline. There pixels
+      // have some of the light behind.
+      float back = backAt(cell);
+      if (back > 0.0 && back < there && max(z0, z1) > back) {
+        vec2 at = start.xy + t * way.xy;
+        if (way.z > 0.0 || there - max(z0, z1) > 6.0 * width) return vec3(0.0);
+        return vec3(depthAt(ivec2(floor(at + pixel))) > back ? at + pixel : at, there);
+      }
+#endif
+    }
+    t = leave;
   }
   return vec3(0.0);
 }
