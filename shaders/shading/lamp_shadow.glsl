@@ -4,11 +4,10 @@
 #ifndef SHADING_LAMP_SHADOW_GLSL
 #define SHADING_LAMP_SHADOW_GLSL
 
+#include "common/cube.glsl"
 #include "scene/lamps.glsl"
 
 uniform samplerCubeArrayShadow lamp_maps;
-
-float axisOf(vec3 d) { return max(abs(d.x), max(abs(d.y), abs(d.z))); }
 
 float seenOfLamp(Lamp self, vec3 position, vec3 n) {
   vec3 from = position - self.position;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/theory/deferred/mirror_tracer.h"
@@ -192,6 +193,60 @@ TEST_CASE(
   const Error error = errorsOf(tracer, shown, kWidth, kHeight, 1)[1];
   MESSAGE(error.on, " of 255, with the map alone ", error.off, ", ", error.count, " pixels");
   CHECK(error.on < 4);
+}
+
+TEST_CASE("a mirror floor shows the underside of a table, which neither the picture nor the probe shows") {
+  const CleanScope clean;
+  constexpr std::uint32_t kWidth = 192, kHeight = 108;
+  MeshScene made({0.6f, 2.2f, 6}, 32);
+  made.put(made.addBox({6, 0.1f, 5}), metalOf(0), {0, -1.1f, -1});
+  made.put(made.addBox({1.2f, 0.02f, 0.8f}), lightOf({0.5f, 0.15f, 0.06f}), {0, 0.2f, 0});
+  for (const float x : {-1.1f, 1.1f})
+    for (const float z : {-0.7f, 0.7f})
+      made.put(made.addBox({0.05f, 0.6f, 0.05f}), lightOf({0.2f, 0.1f, 0.05f}), {x, -0.4f, z});
+  made.put(made.addBox({2, 1, 0.1f}), lightOf({0.6f, 0.6f, 0.55f}), {1, 0, -3});
+  const MirrorTracer tracer(made.scene, made.scene.cameras.rows()[0].pose, kWidth, kHeight, skyAt);
+  for (const auto& [graph, bound] : {std::pair{"graphs/deferred.json", 2.0}, {"graphs/studio.json", 4.0}}) {
+    const std::string name = graph;
+    CAPTURE(name);
+    runtime::test::Stage stage(graph, kWidth, kHeight);
+    show(stage, made.scene);
+    const auto draw = [&](const char* reflections) {
+      stage.settings.sets = {{"reflections", reflections}};
+      REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+      stage.run();
+      return stage.read("hdr");
+    };
+    const Error error = errorsOf(tracer, {.off = draw("false"), .on = draw("true")}, kWidth, kHeight, 1)[0];
+    MESSAGE(name, ": ", error.on, " of 255, with the map alone ", error.off);
+    CHECK(error.on < bound);
+  }
+}
+
+TEST_CASE("a ground without a surface shows the sky in mirrors, too, not black") {
+  const CleanScope clean;
+  constexpr std::uint32_t kWidth = 96, kHeight = 54;
+  MeshScene made({0, 1, 6}, 25);
+  made.put(made.addBox({0.3f, 1.5f, 0.3f}), lightOf({1.5f, 0.2f, 0.1f}), {-1.2f, 0.5f, -0.8f});
+  made.putSphere({0.3f, -0.3f, 0}, 0.7f, metalOf(0),
+                 scene::maskOf(scene::DrawList::spheres) | scene::maskOf(scene::DrawList::shadow_casters));
+  made.scene.ground = scene::Ground{.height = -1};
+  made.scene.sun =
+      scene::Sun{.direction = glm::normalize(glm::vec3(-1, 0.5, -0.5)), .irradiance = glm::vec3(9)};
+  runtime::test::Stage stage("graphs/studio.json", kWidth, kHeight);
+  show(stage, made.scene);
+  stage.settings.sets = {{"reflections", "true"}};
+  REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+  stage.run();
+  const std::vector<float> hdr = stage.read("hdr");
+  const MirrorTracer tracer(made.scene, made.scene.cameras.rows()[0].pose, kWidth, kHeight, skyAt);
+  double darkest = 1;
+  for (std::uint32_t y = 2; y + 2 < kHeight; ++y)
+    for (std::uint32_t x = 2; x + 2 < kWidth; ++x)
+      if (tracer.pixel(x, y, 1).metal)
+        darkest = std::min(darkest, static_cast<double>(hdr[4 * (std::size_t{y} * kWidth + x)]));
+  MESSAGE("darkest ", darkest);
+  CHECK(darkest > 0.1);
 }
 
 TEST_CASE("a mirror that faces the camera shows what is far behind the camera, without a hole") {
