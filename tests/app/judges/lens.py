@@ -146,13 +146,16 @@ class Case:
         disc = (focal / 1000) ** 2 / (2 * number * (focus - focal / 1000)) / 0.024 * self.height
         self.pixels_at_focus = self.height / 2 / math.tan(math.radians(self.camera["fov"]) / 2) / focus
         self.places = [(x * disc / self.pixels_at_focus, y * disc / self.pixels_at_focus) for x, y in places(points, blades)]
-        path = [{"time": i / 60, "position": list(position + right * x + up * y), "target": list(target + right * x + up * y), "fov": self.camera["fov"]}
-                for i, (x, y) in enumerate(self.places)]
-        made = {"cameras": {"still": self.camera, "lens": {"path": path, "near": self.camera.get("near", 0.1)}}}
-        if more:
-            made |= more(folder)
+        self.moved = [(position + right * x + up * y, target + right * x + up * y) for x, y in self.places]
+        self.source, self.more = TOP / "scenes" / f"{scene}.json", more(folder) if more else {}
         self.scene = folder / "scene.json"
-        self.scene.write_text(merged(TOP / "scenes" / f"{scene}.json", made))
+
+    def write_scene(self, begin, end):
+        """With a camera that is at one place in each frame: frames are drawn from the first on."""
+        path = [{"time": i / 60, "position": list(position), "target": list(target), "fov": self.camera["fov"]}
+                for i, (position, target) in enumerate(self.moved[begin:end])]
+        cameras = {"still": self.camera, "lens": {"path": path, "near": self.camera.get("near", 0.1)}}
+        self.scene.write_text(merged(self.source, {"cameras": cameras} | self.more))
 
     def render(self, camera, size, dof, frames, output):
         sets = [f"--set={name}={value}" for name, value in (self.sets | {"dof": str(dof).lower(), "bloom": "false"}).items()]
@@ -165,9 +168,10 @@ class Case:
         sums = np.zeros((2, self.height, self.width, 3))
         for begin in range(0, len(self.places), BATCH):
             end = min(begin + BATCH, len(self.places))
-            self.render("lens", (self.width * FINER, self.height * FINER), False, f"{begin}-{end - 1}", "sharp_%04d.exr")
+            self.write_scene(begin, end)
+            self.render("lens", (self.width * FINER, self.height * FINER), False, f"0-{end - begin - 1}", "sharp_%04d.exr")
             for i in range(begin, end):
-                path = self.folder / f"sharp_{i:04d}.exr"
+                path = self.folder / f"sharp_{i - begin:04d}.exr"
                 sharp = read_exr(path)
                 path.unlink()
                 dx, dy = (round(c * self.pixels_at_focus * FINER) for c in self.places[i])
