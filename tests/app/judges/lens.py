@@ -3,7 +3,7 @@
 
     lens.py WEFT [--only NAME] [--points 256] [--size 960x540] [--keep FOLDER]
 
-The sharp pictures are Weft's, with two pixels along a pixel; the judge's own part is how they are added up: that of a thin lens. Where one half of the
+The sharp pictures are Weft's, with two pixels along a pixel, and what they judge has temporal anti-aliasing; the judge's own part is how they are added up: that of a thin lens. Where one half of the
 places and the other differ by more than 8 of 255, and 4 pixels around, nothing is judged, since 256 places do not suffice for a glint; nor at the border,
 where places look beyond it. Printed: of 255 after x / (1 + x) and gamma 2.2, of the worst channel, the mean, the 99th percentile, and how many are over
 32. --keep: the mean, Weft's picture and eight times their difference, side by side. Needs numpy, and up to an hour for all."""
@@ -24,6 +24,7 @@ from program import REAL_HDR, TOP, run, temporary_folder  # noqa: E402
 
 BATCH = 32  # pictures on disk at a time
 FINER = 2
+SETTLED = 23  # the frame in which anti-aliasing has
 MEAN, PERCENTILE, OVER = 1.2, 12, 0.001
 
 
@@ -157,8 +158,9 @@ class Case:
         cameras = {"still": self.camera, "lens": {"path": path, "near": self.camera.get("near", 0.1)}}
         self.scene.write_text(merged(self.source, {"cameras": cameras} | self.more))
 
-    def render(self, camera, size, dof, frames, output):
-        sets = [f"--set={name}={value}" for name, value in (self.sets | {"dof": str(dof).lower(), "bloom": "false"}).items()]
+    def render(self, camera, size, judged, frames, output):
+        chosen = str(judged).lower()
+        sets = [f"--set={name}={value}" for name, value in (self.sets | {"dof": chosen, "taa": chosen, "bloom": "false"}).items()]
         done = run(self.weft, "render", f"graphs/{self.graph}.json", "--scene", self.scene, "--camera", camera, "--environment", REAL_HDR, *self.arguments, *sets,
                    "--size", "%dx%d" % size, "--frames", frames, "--quiet", "-o", f"hdr={self.folder / output}")
         assert done.code == 0, done.err
@@ -196,8 +198,8 @@ def main():
         with temporary_folder() as folder:
             case = Case(name, options.weft, pathlib.Path(folder), size, options.points)
             even, odd = case.truth()
-            case.render("still", size, True, "0", "lens.exr")
-            found = read_exr(case.folder / "lens.exr")
+            case.render("still", size, True, f"0-{SETTLED}", "lens_%02d.exr")
+            found = read_exr(case.folder / f"lens_{SETTLED}.exr")
         truth = (even + odd) / 2
         masked = wider(np.abs(shown(even) - shown(odd)).max(axis=2) > 8, 4)
         border = math.ceil(case.pixels_at_focus * max(math.hypot(*place) for place in case.places))
