@@ -58,8 +58,8 @@ vec4 probeAlong(vec3 from, vec3 direction, float part, out float away) {
   int was = behindProbed(vec4(start, 1.0)), steps = 4 + int(whole * float(kSteps) / kPi), i = 0;
   bool found = false;
   while (i < steps && !found) {
-    // In steps of equal angles to where it goes before or behind something. In software a step of a loop costs as much as all that is in the
-    // loop, so what follows is outside.
+    // In steps of equal angles to where it goes before or behind something. A software renderer pays for all of a loop's body in each step,
+    // so what follows is outside.
     float before = met;
     int is = was;
     while (i < steps && is == was) {
@@ -88,7 +88,7 @@ vec4 probeAlong(vec3 from, vec3 direction, float part, out float away) {
           before = in_it ? before : middle;
           met = in_it ? middle : met;
         }
-        is = was;  // until then not in it
+        is = was;  // before that place it was not in it
       }
     }
     was = is;

@@ -84,7 +84,7 @@ vec3 trace(vec3 from, vec3 direction) {
       if (before0 >= -same || (same_surface && before0 * length((leave - t) * way.xy) >= -fall))
         return start + (t + (leave - t) * clamp(before0 / max(fall, 1e-3 * same), 0.0, 1.0)) * way;
 #ifdef HAS_MIRROR_BACKS
-      // It came from aside and is in something, whose side the picture does not show but for what is next to its outline. There pixels
+      // It came from the side and is in something, whose side the picture does not show but for what is next to its outline. There pixels
       // have some of the light behind.
       float back = backAt(cell);
       if (back > 0.0 && back < there && max(z0, z1) > back) {
