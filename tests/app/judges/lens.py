@@ -3,10 +3,10 @@
 
     lens.py WEFT [--only NAME] [--points 256] [--size 960x540] [--keep FOLDER]
 
-The sharp pictures are Weft's, with two pixels along a pixel, and what they judge has temporal anti-aliasing; the judge's own part is how they are added up: that of a thin lens. Where one half of the
-places and the other differ by more than 8 of 255, and 4 pixels around, nothing is judged, since 256 places do not suffice for a glint; nor at the border,
-where places look beyond it. Printed: of 255 after x / (1 + x) and gamma 2.2, of the worst channel, the mean, the 99th percentile, and how many are over
-32. --keep: the mean, Weft's picture and eight times their difference, side by side. Needs numpy, and up to an hour for all."""
+The sharp pictures are Weft's, with two pixels along a pixel, and what they judge has temporal anti-aliasing; the judge's own part is how they are added
+up: that of a thin lens. Where one half of the places and the other differ by more than 8 of 255, and 4 pixels around, nothing is judged, since 256 places
+do not suffice for a glint; nor at the border, where places look beyond it. Printed: of 255 after x / (1 + x) and gamma 2.2, of the worst channel, the
+mean, the 99th percentile, and how many are over 32. --keep: the mean, Weft's picture and eight times their difference, side by side. Needs numpy, and up to an hour for all."""
 import argparse
 import json
 import math
