@@ -13,10 +13,12 @@
 //         depth        near / distance along the view axis (reversed-Z)
 // params  sky_turn, lamp_count?   see shading/parameters.glsl
 // define  SURFACE_ALONE   nothing is drawn where there is no surface
+//         SHOW_LAMPS      instead of light, how many lamps each pixel goes through, see shading/show_lamps.glsl
 #include "fog/fog.glsl"
 #include "ibl/brightest.glsl"
 #include "shading/point.glsl"
 #include "shading/parameters.glsl"
+#include "shading/show_lamps.glsl"
 #ifndef HAS_SKY_TURN
 const float sky_turn = 0.0;
 #endif
@@ -109,9 +111,9 @@ void main() {
 #endif
   vec3 arrives = from_sky * sky_seen + from_sun * seen.sun + from_spots * vec4(seen.spot, seen.others);
   float all = dot(from_sky + from_sun + from_spots * vec4(1.0), luminance), left = all > 0.0 ? dot(arrives, luminance) / all : 1.0;
+  int tried = 0;
 #ifdef HAS_LAMPS
   const Response white = Response(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(1.0), 1.0, 1.0, 0.0, 0.0);
-  int tried;
   if (surface > 0.0)
     arrives += lampsRadiance(Point(at, vec3(0.0, 1.0, 0.0), normalize(from - at), vec3(0.0), 1.0, 1.0), white, tried);
 #endif
@@ -121,6 +123,9 @@ void main() {
   float through = throughFog(at - from);
   kept = mix(1.0, kept, through);
   reflected = mix(fog_light.rgb, reflected, through);
+#endif
+#if SHOW_LAMPS
+  reflected = colorOfLamps(tried);
 #endif
   radiance = vec4(reflected * surface, 1.0 - (1.0 - surface) * kept);
 #endif
