@@ -140,8 +140,9 @@ struct GeometryType {
   std::string name;
   std::vector<GeometryArgument> arguments;
   bool meshes = false;   // draws the meshes of a draw list, each with its own vertices
-  bool counted = false;  // its argument is how many vertices an instance has; they have no attributes
+  int counted = 0;       // above 0, its argument is how many vertices an instance has: a multiple of this
   bool indexed = false;  // has indices
+  std::vector<std::string> attributes;  // of its vertices, by the names of the shader's inputs
 };
 
 struct Registry {

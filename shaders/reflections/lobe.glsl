@@ -16,7 +16,7 @@
 #include "reflections/trace.glsl"
 uniform sampler2D mirror_light;
 #endif
-#ifdef HAS_PROBE_LIGHT
+#if SEES_PROBE
 #include "reflections/probe.glsl"
 #endif
 
@@ -63,7 +63,7 @@ vec4 sceneAlong(vec3 from, vec3 direction, float part, out float away) {
     seen = edge.x * edge.y * min(light.a * 64.0, 1.0) * vec4(fogged(light.rgb / max(light.a, 1e-4), from, direction, away), 1.0);
   }
 #endif
-#ifdef HAS_PROBE_LIGHT
+#if SEES_PROBE
   if (seen.a < 1.0) {
     float other_away;
     vec4 other = probeAlong(from, direction, part, other_away);

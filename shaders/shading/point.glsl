@@ -2,7 +2,12 @@
 #ifndef SHADING_POINT_GLSL
 #define SHADING_POINT_GLSL
 
-#if defined HAS_SPECULAR && (defined HAS_MIRRORED || defined HAS_MIRROR_LIGHT || defined HAS_PROBE_LIGHT)
+#if defined HAS_PROBE_LIGHT && defined HAS_PROBE_DEPTH && defined HAS_PROBE_BACKS && defined HAS_PROBE_PLACE
+#define SEES_PROBE 1
+#else
+#define SEES_PROBE 0
+#endif
+#if defined HAS_SPECULAR && (defined HAS_MIRRORED || defined HAS_MIRROR_LIGHT || SEES_PROBE)
 #define SEES_SCENE 1
 #else
 #define SEES_SCENE 0

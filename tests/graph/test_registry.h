@@ -218,9 +218,9 @@ inline Registry testRegistry(const World& world = {}) {
                          {"icosphere", {{"subdivision", 0, 6, 2}}},
                          {"mesh", {}, true},
                          {"octagon", {}},
-                         {.name = "points", .arguments = {{"vertices", 0, 2147483647}}, .counted = true},
-                         {.name = "lines", .arguments = {{"vertices", 0, 2147483647}}, .counted = true},
-                         {.name = "triangles", .arguments = {{"vertices", 0, 2147483647}}, .counted = true},
+                         {.name = "points", .arguments = {{"vertices", 0, 2147483647}}, .counted = 1},
+                         {.name = "lines", .arguments = {{"vertices", 0, 2147483647}}, .counted = 2},
+                         {.name = "triangles", .arguments = {{"vertices", 0, 2147483647}}, .counted = 3},
                          {"triangle", {}}};
   registry.factsOf = [world](const ImportRequest& request) { return testFacts(world, request); };
   return registry;

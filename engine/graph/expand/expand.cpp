@@ -46,7 +46,8 @@ void resolvePresent(Model& model) {
   model.graph.present = *use;  // also what cannot be shown: its writers are no mistake
   const FlatResource& resource = model.graph.resources[use->resource];
   if (model.diagnostics.errorCount() == before &&
-      (isBuffer(resource) || isDepth(resource.format) || use->history > 0))
+      (isBuffer(resource) || isDepth(resource.format) || use->history > 0 || resource.samples > 1 ||
+       resource.target == Target::texture_3d))
     report(model, say::presentsNoColor, ref.place, ref.text);
 }
 

@@ -100,7 +100,8 @@ void checkKeys(const SlotContext& context, const PassDesc& desc) {
               {"defines", !desc.defines.empty(), hasShader, placeOf(desc.defines)}};
   for (const auto& [key, present, taken, place] : keys)
     if (present && !taken && std::ranges::find(context.type->keys, key) == context.type->keys.end())
-      context.report(say::keyNotTaken, place, key, context.type->name);
+      context.report(say::keyNotTaken, place, key, context.type->name,
+                     std::string_view(key) == "list" ? ", or say \"geometry\" to draw" : "");
   const auto modifies = [](const SlotDesc& slot) { return slot.access == Access::modify; };
   const struct {
     bool idle;
@@ -256,7 +257,7 @@ void resolveView(const SlotContext& context, const PassDesc& desc, PassSpec& spe
       if (each.kind == ImportKind::view || each.views) known.push_back("@" + each.name);
     const std::string all = fmt::format("{}", fmt::join(known, ", "));
     missing ? context.report(say::viewNotThere, ref.place, ref.text, all, ref.name)
-            : context.report(say::notAView, ref.place, ref.text, all, ref.name);
+            : context.report(say::notAView, ref.place, ref.text, all);
     return;
   }
   const std::int64_t last =
@@ -478,7 +479,9 @@ void addGeometry(const SlotContext& context, const PassDesc& desc, PassSpec& spe
     if (spec.indirect && type->counted) break;
     if (i < desc.geometryArguments.size())
       value = evaluateWhole(context.names, desc.geometryArguments[i], argument.initial, argument.min,
-                            argument.max, "an argument of the geometry", type->counted);
+                            argument.max, "an argument of the geometry", type->counted > 0);
+    if (value && type->counted > 1 && *value % type->counted != 0)
+      context.report(say::verticesLeftOver, desc.geometryPlace, desc.geometry, *value, type->counted);
     if (value) spec.geometryArguments.push_back(static_cast<double>(*value));
   }
 }

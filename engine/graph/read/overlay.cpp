@@ -374,12 +374,15 @@ class Applier {
     said_.resource = section.key == "resources" ? entry.key : "";
     const std::string whole = entry.key;
     const Spot spot = find(section.key, whole, entry.place);
-    const bool fresh = !spot.index && declares(section.key, entry) && spot.own.find('.') == std::string::npos;
+    const bool dotted = spot.own.find('.') != std::string::npos;
+    const bool fresh = !spot.index && declares(section.key, entry) && !dotted;
     if (!spot.index && !fresh) {
       const std::string hint = meantBy(whole, section.key).hint;
       said_.error(say::entryNotThere, entry.place, whole, section.key,
                   entry.value.is(Type::null) ? "removed" : "changed",
-                  hint.empty() ? "write all of it to declare a new one" : hint);
+                  !hint.empty()                           ? hint
+                  : section.key == "parameters" && dotted ? "use \"set\", or \"parameters\" of its pass"
+                                                          : "write all of it to declare a new one");
     } else if (Source* source = open(spot.below, entry.place)) {
       entry.key = spot.own;  // "bloom.glow" is "glow" in its own file
       JsonMember* there = memberOf(source->root, section.key);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <tuple>
 
@@ -77,11 +76,11 @@ ShapeMesh makeBox() {
 namespace {
 
 // Without attributes, with as many vertices as the graph says.
-constexpr std::pair<const char*, GLenum> kTopologies[] = {{"points", GL_POINTS},
-                                                          {"lines", GL_LINES},
-                                                          {"line_strip", GL_LINE_STRIP},
-                                                          {"triangles", GL_TRIANGLES},
-                                                          {"triangle_strip", GL_TRIANGLE_STRIP}};
+constexpr std::tuple<const char*, GLenum, int> kTopologies[] = {{"points", GL_POINTS, 1},
+                                                                {"lines", GL_LINES, 2},
+                                                                {"line_strip", GL_LINE_STRIP, 1},
+                                                                {"triangles", GL_TRIANGLES, 3},
+                                                                {"triangle_strip", GL_TRIANGLE_STRIP, 1}};
 constexpr int kBox = -1;  // among the icospheres
 
 }  // namespace
@@ -90,15 +89,19 @@ std::vector<graph::GeometryType> reflectGeometries() {
   const graph::GeometryArgument subdivision{
       .name = "subdivision", .min = 0, .max = kMaxSubdivision, .initial = 2};
   const graph::GeometryArgument vertices{.name = "vertices", .min = 0, .max = 2147483647};
+  const std::vector<std::string> solid = {"position", "normal"};
   std::vector<graph::GeometryType> types = {
       {"quad", {}},
       {"octagon", {}},
-      {.name = "icosphere", .arguments = {subdivision}, .indexed = true},
+      {.name = "icosphere", .arguments = {subdivision}, .indexed = true, .attributes = solid},
       {"triangle", {}},
-      {.name = "box", .arguments = {}, .indexed = true},
-      {.name = "mesh", .arguments = {}, .meshes = true}};
-  for (const auto& [name, mode] : kTopologies)
-    types.push_back({.name = name, .arguments = {vertices}, .counted = true});
+      {.name = "box", .arguments = {}, .indexed = true, .attributes = solid},
+      {.name = "mesh",
+       .arguments = {},
+       .meshes = true,
+       .attributes = {"position", "normal", "tangent", "uv", "joints", "weights", "instance"}}};
+  for (const auto& [name, mode, multiple] : kTopologies)
+    types.push_back({.name = name, .arguments = {vertices}, .counted = multiple});
   return types;
 }
 
@@ -114,7 +117,7 @@ Geometry Geometries::get(const std::string& name, const std::vector<double>& arg
     geometry.mode = GL_TRIANGLE_STRIP;
     geometry.count = name == "quad" ? 4 : 8;
   }
-  for (const auto& [topology, mode] : kTopologies)
+  for (const auto& [topology, mode, multiple] : kTopologies)
     if (name == topology) {
       geometry.mode = mode;
       geometry.count = arguments.empty() ? 0 : static_cast<GLsizei>(arguments[0]);
@@ -122,7 +125,6 @@ Geometry Geometries::get(const std::string& name, const std::vector<double>& arg
   const bool box = name == "box";
   if (!box && name != "icosphere") return geometry;
 
-  assert(box || (arguments.size() == 1 && arguments[0] >= 0 && arguments[0] <= kMaxSubdivision));
   const int subdivisions = box ? kBox : static_cast<int>(arguments[0]);
   Mesh& mesh = shapes_[subdivisions];
   if (mesh.count == 0) {
@@ -142,19 +144,16 @@ Geometry Geometries::get(const std::string& name, const std::vector<double>& arg
   }
   geometry.count = mesh.count;
   geometry.indexType = GL_UNSIGNED_INT;
-  for (const Bound& each : bound_)
-    if (each.subdivisions == subdivisions && each.position == position && each.normal == normal) {
-      geometry.vertexArray = each.vertexArray.id();
-      return geometry;
-    }
-  Bound bound{subdivisions, position, normal, gl::VertexArray::create(name)};
-  for (const auto& [binding, location, offset] :
-       {std::tuple(0u, position, 0u), std::tuple(1u, normal, mesh.normals)})
-    if (const gl::VertexAttribute each{.location = static_cast<GLuint>(location)}; location >= 0)
-      bound.vertexArray.setVertices(binding, mesh.vertices.id(), offset, 12, {&each, 1});
-  bound.vertexArray.setIndices(mesh.indices.id());
-  geometry.vertexArray = bound.vertexArray.id();
-  bound_.push_back(std::move(bound));
+  gl::VertexArray& bound = bound_[{subdivisions, position, normal}];
+  if (!bound) {
+    bound = gl::VertexArray::create(name);
+    for (const auto& [binding, location, offset] :
+         {std::tuple(0u, position, 0u), std::tuple(1u, normal, mesh.normals)})
+      if (const gl::VertexAttribute each{.location = static_cast<GLuint>(location)}; location >= 0)
+        bound.setVertices(binding, mesh.vertices.id(), offset, 12, {&each, 1});
+    bound.setIndices(mesh.indices.id());
+  }
+  geometry.vertexArray = bound.id();
   return geometry;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "engine/gl/programs/program.h"
@@ -41,13 +42,8 @@ class Geometries {
     std::uint32_t normals = 0;  // where they begin, in bytes
   };
   gl::VertexArray empty_;
-  std::map<int, Mesh> shapes_;  // icospheres by subdivision, and the box
-  struct Bound {
-    int subdivisions = 0;
-    GLint position = -1, normal = -1;
-    gl::VertexArray vertexArray;
-  };
-  std::vector<Bound> bound_;
+  std::map<int, Mesh> shapes_;                                      // icospheres by subdivision, and the box
+  std::map<std::tuple<int, GLint, GLint>, gl::VertexArray> bound_;  // by shape, and where its attributes go
 };
 
 }  // namespace weft::passes

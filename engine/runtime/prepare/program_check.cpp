@@ -10,6 +10,7 @@
 #include "engine/graph/subresource.h"
 #include "engine/imports/row_table.h"
 #include "engine/passes/compute/work_groups.h"
+#include "engine/passes/draw/geometry.h"
 #include "engine/runtime/prepare/program_request.h"
 #include "engine/runtime/storage/block_writer.h"
 #include "engine/text/chars.h"
@@ -223,7 +224,11 @@ class Checker {
     const FlatUse& use = graph_.uses[slot.firstUse];
     return declarationFor(slot, use, resourceOf(use));
   }
-  bool isSlot(std::string_view name) const { return graph_.hasSlot(spec_, name); }
+  // Not that of an optional slot which is empty.
+  bool isSlot(std::string_view name) const {
+    return std::ranges::any_of(graph_.slotsOf(spec_),
+                               [&](const SlotSpec& slot) { return slot.name == name && slot.useCount > 0; });
+  }
 
   // What the name is in the shaders, in any branch: the outputs of a vertex shader are the inputs of what follows it. Null when it is nothing.
   const char* whatIs(std::string_view name) const {
@@ -233,29 +238,37 @@ class Checker {
     return text::isGlslFunction(name) ? "a built-in function" : nullptr;
   }
 
-  std::vector<std::string> namesInShaders() const {
+  // From that role to members of blocks.
+  std::vector<std::string> namesInShaders(Role first) const {
     std::vector<std::string> names;
     for (const gl::StageSource& stage : stages_)
       for (const Declaration& each : stage.source->ofAllBranches().declarations)
-        if (each.role <= Role::member) names.emplace_back(each.name);
+        if (each.role >= first && each.role <= Role::member) names.emplace_back(each.name);
     return names;
   }
 
   void checkSlot(const SlotSpec& slot) {
     if (slot.useCount == 0) return;
     const FlatUse& use = graph_.uses[slot.firstUse];
-    if (slot.access != Access::read && !plan_.attached[slot.firstUse]) return;
     if (!roleFor(slot.kind)) return;
     const Role role = *roleFor(slot.kind);
+    // Of what nobody reads it is enough that a branch declares it.
+    if (slot.access != Access::read && !plan_.attached[slot.firstUse] && maybe(slot.name, role)) return;
     const Declaration* declared = find(slot.name, role);
+    if (role == Role::output && use.layers > 1 && spec_.geometry.empty() && spec_.vertexShader.empty())
+      fail(say::fillsOneLayer, slot.place, spec_.name, nameOf(use), use.layers);
     if (slot.kind == Kind::depth) {
       if (declared) reportDepth(use);
     } else if (!declared) {
-      if (slot.kind != Kind::color || !givesRasterAlone(plan_, pass_, slot.firstUse))
-        checkMissing(slot, role);
+      checkMissing(slot, role);
     } else if (isLive(*declared)) {
       if (slot.kind == Kind::color)
         checkOutput(slot, use, *declared);
+      else if (role != Role::sampler && role != Role::uniform_block &&
+               (slot.access == Access::read) == declared->writes)
+        reportType(slot, use, declared->writes ? "declaration, which may write it," : "readonly declaration",
+                   declared->writes ? "readonly, or the slot in \"write\" or \"modify\""
+                                    : "no readonly, or the slot in \"read\"");
       else if (!isBlock(role))
         checkOpaque(slot, use, *declared);
       else if (linked_)
@@ -276,7 +289,7 @@ class Checker {
     if (!other && (maybe(slot.name, role) || (isBlock(role) && maybe(role, hasInstance)))) return;
     slotMissing_ = true;
     const char* const what = whatIs(slot.name);
-    const std::string near = what ? "" : text::nearestName(slot.name, namesInShaders());
+    const std::string near = what ? "" : text::nearestName(slot.name, namesInShaders(Role::sampler));
     const std::string hint = !what && slot.ofSet
                                  ? "declare it, or move it from the set to the passes that need it"
                              : !near.empty() ? fmt::format("did you mean '{}'?", near)
@@ -354,12 +367,8 @@ class Checker {
       };
       if (!uniform.isFirst() || maybe(Role::member, isParameter) || maybe(uniform.name, Role::uniform))
         continue;
-      missing = true;
-      const std::string other = blockOf(uniform.name);
-      if (other.empty()) reportMissing(uniform);
-      if (other.empty() || !misnamed_.empty()) continue;
-      misnamed_ = other;
-      fail(say::parametersMisnamed, spec_.shaderPlace, shaders_, other);
+      missing = slotMissing_ = true;
+      reportMissing(uniform);
     }
     if (missing || !live) return;  // one misspelling is one mistake
     for (const Declaration* member : members)
@@ -367,22 +376,9 @@ class Checker {
         reportUnset(*member);
   }
 
-  // The uniform block that has a parameter as its member, where none has the name Parameters and the pass does not name it; or "".
-  std::string blockOf(std::string_view name) const {
-    std::string block;
-    for (const gl::StageSource& stage : stages_) {
-      const glsl::Interface& all = stage.source->ofAllBranches();
-      if (all.find("Parameters", Role::uniform_block)) return {};
-      for (const Declaration& each : all.declarations)
-        if (each.role == Role::member && each.name == name && all.find(each.owner, Role::uniform_block))
-          block = each.owner;
-    }
-    return block == "View" || block == "Slice" || isSlot(block) ? std::string() : block;
-  }
-
   void reportMissing(const graph::UniformSpec& uniform) {
     const char* const what = whatIs(uniform.name);
-    const std::string near = what ? "" : text::nearestName(uniform.name, namesInShaders());
+    const std::string near = what ? "" : text::nearestName(uniform.name, namesInShaders(Role::member));
     fail(say::parameterNotInShader, uniform.place, uniform.name,
          what ? fmt::format("{}, not a member of the block Parameters,", what) : "not", shaders_,
          (near.empty() ? "" : fmt::format("the shader has '{}': name it so, or ", near)));
@@ -448,9 +444,12 @@ class Checker {
     }
   }
 
-  // Says nothing when a slot was not found, because one misspelling is one mistake.
+  // Says nothing when a slot or a parameter was not found, because one misspelling is one mistake.
   void unfed(const char* what, const std::string& name) {
     if (slotMissing_) return;
+    if (graph_.hasSlot(spec_, name))
+      return fail(say::slotIsEmpty, spec_.shaderPlace, shaders_, what, name, spec_.declared,
+                  glsl::presenceDefineOf(name));
     std::vector<std::string> names;
     for (const SlotSpec& slot : graph_.slotsOf(spec_)) names.push_back(slot.name);
     const std::string nearest = text::nearestName(name, names);
@@ -475,8 +474,17 @@ class Checker {
     }
     for (const auto& block : reflection.uniformBlocks) {
       const bool ours = block.name == "View" || block.name == "Slice" || block.name == "Parameters";
-      if (!ours && !isSlot(block.name) && block.name != misnamed_) unfed("a uniform block", block.name);
+      if (!ours && !isSlot(block.name)) unfed("a uniform block", block.name);
     }
+    std::vector<std::string> known;
+    for (graph::GeometryType& each : passes::reflectGeometries())
+      if (each.name == spec_.geometry) known = std::move(each.attributes);
+    for (const gl::Interface& attribute : reflection.attributes)
+      if (std::ranges::find(known, attribute.name) == known.end())
+        fail(say::vertexLacks, spec_.shaderPlace, shaders_, attribute.name,
+             spec_.geometry.empty() ? "triangle" : spec_.geometry,
+             known.empty() ? "use gl_VertexID: its vertices have nothing else"
+                           : fmt::format("it has {}", fmt::join(known, ", ")));
     for (const auto& loose : reflection.looseUniforms) {
       const std::vector<std::string> names = viewMemberNames();
       failOnce(say::uniformOutsideBlock, spec_.shaderPlace, shaders_, loose.name,
@@ -544,8 +552,7 @@ class Checker {
   // For messages, between quotes.
   const std::string shaders_ =
       spec_.vertexShader.empty() ? spec_.shader : spec_.vertexShader + "' and '" + spec_.shader;
-  std::string misnamed_;  // a block that has the parameters under another name
-  std::string misfit_;    // the last parameter of which a value was reported
+  std::string misfit_;  // the last parameter of which a value was reported
   bool slotMissing_ = false, failed_ = false;
 };
 

@@ -32,18 +32,6 @@ std::vector<graph::TableColumn> instanceColumnsOf(const PassSpec& spec) {
   return spec.meshes ? tell(imports::meshColumns()) : tell(imports::sphereColumns());
 }
 
-bool givesRasterAlone(const Plan& plan, std::uint32_t pass, std::uint32_t use) {
-  const FlatGraph& graph = *plan.graph;
-  if (!graph.uses[use].keep || graph.passes[pass].sideEffect) return false;
-  bool read = false;
-  const auto see = [&](std::uint32_t writer) { read = read || writer == use; };
-  for (std::size_t u = 0; u < graph.uses.size() && !read; ++u)
-    if (plan.attached[u] != 0) graph.links.forEachWriter(graph.links.seen[u], see);
-  graph.links.forEachWriter(graph.links.present, see);
-  for (const std::uint32_t output : graph.links.outputs) graph.links.forEachWriter(output, see);
-  return !read;
-}
-
 gl::ProgramRequest programRequestOf(const FlatGraph& graph, const Plan& plan, std::uint32_t pass,
                                     const graph::PassType& type) {
   const PassSpec& spec = graph.specs[pass];

@@ -15,10 +15,6 @@ namespace weft::runtime {
 // against a cleared buffer finds the background.
 extern const char* const kFullscreenVertex;
 
-// Whether an attachment does no more than say how large the raster of a pass is that stores: nobody reads it, and the
-// shader need not write it.
-bool givesRasterAlone(const graph::Plan& plan, std::uint32_t pass, std::uint32_t use);
-
 // The stages, defines and outputs of a pass's variant: what `check` compiles without running anything.
 gl::ProgramRequest programRequestOf(const graph::FlatGraph& graph, const graph::Plan& plan,
                                     std::uint32_t pass, const graph::PassType& type);

@@ -12,6 +12,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "dof/coc.glsl"
 #include "dof/idle.glsl"
+#define WORK_ACCESS
 #include "dof/small/work.glsl"
 
 uniform sampler2D discs, source, idle;
@@ -20,6 +21,14 @@ layout(rg16f) uniform writeonly image2D tiles;
 const float kAlike = 1.02;                    // ratio of radii that count as one
 const float kLeast = POLYGON == 1 ? 2.3 : 1.5;  // radius from which texelWithin() has weights by areas
 const int kAround = 4;                        // texels around a tile that its discs may reach, at least EACH_TEXEL
+
+void addWork(ivec2 tile) {
+  uint i = atomicAdd(count, 1u);
+  tiles_of[i] = uint(tile.x + (tile.y << 16));
+  atomicMax(groups.x, min(i + 1u, kAcross));
+  atomicMax(groups.y, i / kAcross + 1u);
+  groups.z = 1u;
+}
 
 void main() {
   ivec2 at = ivec2(gl_GlobalInvocationID.xy);

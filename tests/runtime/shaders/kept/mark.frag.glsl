@@ -1,4 +1,4 @@
-// Counts, and has no output: an attachment says the size.
+// Counts, and has no output: "raster" says the size.
 // modify  marks
 layout(r32ui) uniform uimage2D marks;
 
