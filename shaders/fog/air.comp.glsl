@@ -4,7 +4,7 @@
 //         fog_density   extinction per world unit at the height `fog_base`
 //         fog_falloff   in 1 / fog_falloff world units of height the extinction falls to 1/e; 0: it is the same everywhere
 //         fog_base      world units
-//         fog_layer     world units above and below the eye at which the fog in front of the sky ends
+//         fog_layer     world units above and below the eye at which the fog in front of the sky ends; below, at `fog_base` if that is lower
 //         fog_sky       weight of that layer
 layout(local_size_x = 1) in;
 
@@ -23,6 +23,6 @@ layout(std140) uniform Parameters {
 
 void main() {
   float at_0 = fog_density > 0.0 ? log(fog_density) + fog_falloff * fog_base : -1e30;
-  light = vec4(fog_color, 0.0);
+  light = vec4(fog_color, fog_base);
   shape = vec4(fog_falloff, fog_layer, fog_sky, at_0);
 }

@@ -10,7 +10,7 @@
 #include "common/view.glsl"
 
 layout(std140) uniform air {
-  vec4 fog_light;  // radiance of endless fog
+  vec4 fog_light;  // radiance of endless fog; w: fog_base
   vec4 fog_shape;  // falloff, layer, sky: see air.comp.glsl; w: logarithm of the extinction per world unit at height 0
 };
 

@@ -6,11 +6,11 @@
 
 #ifdef HAS_AIR
 // Transmittance towards the sky, for a lobe of GGX's `alpha` around a direction, from a place of that `height`. The sky has no distance, so
-// the fog in front of it is a layer that ends above and below, and is thickest at the horizon. A lobe sees it at its mean height: 0.05 off
-// the integral over the lobe in the mean.
+// the fog in front of it is a layer that ends above and below, where not above the ground, and is thickest at the horizon. A lobe sees it at
+// its mean height: 0.05 off the integral over the lobe in the mean.
 float throughFogOfSky(vec3 direction, float height, float alpha) {
   float y2 = direction.y * direction.y / dot(direction, direction), y = sqrt(mix(0.25 * alpha * alpha, 1.0, y2));
-  float far = min(fog_shape.y / max(y, 1e-12), 1e6);
+  float layer = direction.y < 0.0 ? max(fog_shape.y, height - fog_light.w) : fog_shape.y, far = min(layer / max(y, 1e-12), 1e6);
   return mix(1.0, throughFog(height, direction.y < 0.0 ? -y * far : y * far, far), fog_shape.z);
 }
 

@@ -170,8 +170,9 @@ TEST_CASE(
   for (const std::string graph : {"graphs/studio.json", "graphs/deferred.json"})
     for (const float roughness : {0.0f, 0.3f}) {
       Setup setup{.graph = graph, .width = 96, .height = 96};
-      setup.sets = {{"dither", "false"},        {"bloom", "false"},      {"fxaa", "false"}, {"fog", "true"},
-                    {"fog_color", "[0, 0, 0]"}, {"fog_density", "0.03"}, {"fog_layer", "4"}};
+      setup.sets = {{"dither", "false"}, {"bloom", "false"},         {"fxaa", "false"},
+                    {"fog", "true"},     {"fog_color", "[0, 0, 0]"}, {"fog_density", "0.03"},
+                    {"fog_layer", "4"},  {"fog_base", "8"}};
       setup.balls = {{.center = {0, 0, 0}, .radius = 8, .roughness = roughness}};
       Lab lab(setup);
       lab.frame(0);
@@ -198,6 +199,41 @@ TEST_CASE(
       MESSAGE(graph, ", roughness ", roughness, ": mean ", mean / count, ", worst ", worst, " of ", count);
       CHECK(count > 80);
       CHECK(mean / count < (roughness > 0 ? 0.03 : 0.002));
+    }
+}
+
+TEST_CASE("fog: what is below the horizon is seen through the fog above the ground, from any height") {
+  constexpr double kDensity = 0.05, kFalloff = 0.25, kBase = -2;
+  for (const std::string graph : {"graphs/studio.json", "graphs/deferred.json"})
+    for (const float height : {12.0f, 30.0f}) {
+      Setup setup{.graph = graph, .width = 96, .height = 96};
+      setup.camera.position = {0, height, 20};
+      setup.sets = {
+          {"dither", "false"},     {"bloom", "false"}, {"fxaa", "false"},          {"fog", "true"},
+          {"fog_falloff", "0.25"}, {"fog_base", "-2"}, {"fog_color", "[0, 0, 0]"}, {"fog_density", "0.05"}};
+      Lab lab(setup);
+      lab.frame(0);
+      const Picture picture = lab.read("hdr");
+      CHECK(lab.reports() == "");
+      const glm::dmat4 back = glm::inverse(glm::dmat4(lab.view().projection) * glm::dmat4(lab.view().view));
+      double worst = 0, least = 1, most = 0;
+      for (std::uint32_t y = 0; y < 96; y += 5) {
+        const glm::dvec4 far = back * glm::dvec4{0.5 / 48, (y + 0.5) / 48 - 1, 1e-6, 1};
+        const glm::dvec3 ray = glm::normalize(glm::dvec3(far) / far.w - glm::dvec3(setup.camera.position));
+        if (ray.y > -0.05) continue;
+        const double length = (double(height) - kBase) / -ray.y;
+        double depth = 0;
+        for (int i = 0; i < 2000; ++i) {
+          const double up = double(height) + ray.y * length * (i + 0.5) / 2000;
+          depth += kDensity * std::exp(-kFalloff * (up - kBase)) * length / 2000;
+        }
+        worst = std::max(worst, std::abs(double(picture.at(48, y)[0]) - std::exp(-depth)));
+        least = std::min(least, std::exp(-depth));
+        most = std::max(most, std::exp(-depth));
+      }
+      MESSAGE(graph, ", from ", height, ": worst ", worst, ", of ", least, " to ", most);
+      CHECK(worst < 0.002);
+      CHECK(most - least > 0.15);
     }
 }
 
