@@ -16,6 +16,7 @@ layout(std140) uniform luminance { vec4 mean_luminance; };
 layout(std430) writeonly buffer brightest {
   Spot spots[kSpots];
   int spot_count;
+  float sun_radius;
 };
 
 const float kStandsOut = 16.0, kMatters = 1.0 / 16.0;
@@ -129,4 +130,5 @@ void main() {
   if (lane != 0u) return;
   for (int i = 0; i < kSpots; ++i) spots[i] = found[i];
   spot_count = found_count;
+  sun_radius = 0.0;
 }

@@ -10,8 +10,10 @@
 layout(std140) uniform brightest {
   Spot spots[kSpots];
   int spot_count;
+  float sun_radius;  // half the angle of the first one's disc where that is known, radians, else 0
 };
 #else
+const float sun_radius = 0.0;
 const Spot spots[kSpots] = Spot[](kNoSpot, kNoSpot, kNoSpot, kNoSpot);
 const int spot_count = 0;
 #endif
@@ -24,7 +26,9 @@ vec3 turnedAbout(vec3 at, float turn) {
 vec3 towardsSpot(int i, float turn) { return turnedAbout(spots[i].at.xyz, turn); }
 
 // A spot's irradiance over pi on a surface that faces it; w: half the angle of its disc, radians. The same for all pixels.
-vec4 spotIrradiance(int i) { return vec4(spots[i].light.rgb / kPi, max(2.0 * sqrt(spots[i].light.w), 0.002)); }
+vec4 spotIrradiance(int i) {
+  return vec4(spots[i].light.rgb / kPi, i == 0 && sun_radius > 0.0 ? sun_radius : max(2.0 * sqrt(spots[i].light.w), 0.002));
+}
 
 // The part of a shadow map that spot `i` has: its corner and its size. The first has a map of its own; the others share one, a quarter each,
 // with room around it for penumbrae.

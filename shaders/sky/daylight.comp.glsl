@@ -1,7 +1,7 @@
 // An analytic clear sky with a sun and a plain ground, as an equirectangular map: the environment when none is loaded.
 // Sky: Preetham, Shirley and Smits, "A practical analytic model for daylight", SIGGRAPH 1999 (luminance and its x).
 // Sun: its light after Rayleigh and aerosol extinction, in a lobe a few degrees wide with the right irradiance, so that a
-// small map can hold it; sky/skybox draws the disc. Ground: Lambertian, lit by both; towards the horizon it fades into the sky above, as
+// small map can hold it; sky/skybox draws the disc, whose size shadows have. Ground: Lambertian, lit by both; towards the horizon it fades into the sky above, as
 // far as the air is hazy.
 // Each thread makes the 2 x 2 texels of level 0 that are one of level 1, and that one.
 // write   radiance, radiance_1   levels 0 and 1, rgba16f; scene-referred, 17 kcd/m2 is 1: a white diffuse surface under a high sun is near
@@ -30,6 +30,7 @@ layout(rgba16f) uniform writeonly image2D rest_1;
 layout(std430) writeonly buffer sun {
   Spot spots[kSpots];
   int spot_count;
+  float sun_radius;
 };
 #endif
 #ifdef HAS_DISC
@@ -46,6 +47,7 @@ layout(std140) uniform Parameters {
 
 const float kUnit = 0.06;           // per kcd/m2
 const float kSunLuminance = 128.0;  // klx above the atmosphere
+const float kSunRadius = radians(0.2665);
 
 // Luminance and x of the model at the angle theta from the zenith and `gamma` from the sun, not normalized.
 vec2 perez(float cos_theta, float gamma, float cos_gamma) {
@@ -137,10 +139,11 @@ void main() {
   spots[0].at = vec4(normalize(to_sun + up * (sqrt(0.5 * kWidth2) * lean)), 1.25 * most(around));
   spots[0].light = vec4(sun_light * seen, 0.5 * kWidth2 * (1.0 - 0.5 * lean * (sqrt(2.0) * x + lean)));
   spot_count = 1;
+  sun_radius = kSunRadius;
 #endif
 #ifdef HAS_DISC
   // A high sun is brighter than half floats are: it is drawn larger instead, up to 0.68 degrees.
-  disc_at = vec4(to_sun, max(radians(0.2665), sqrt(most(sun_light) / (kPi * 64000.0))));
+  disc_at = vec4(to_sun, max(kSunRadius, sqrt(most(sun_light) / (kPi * 64000.0))));
   disc_light = vec4(sun_light, 0.0);
 #endif
 }

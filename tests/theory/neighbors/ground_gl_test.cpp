@@ -132,6 +132,43 @@ TEST_CASE("ground: spheres leave of the sun's disc what rays to it leave") {
   }
 }
 
+TEST_CASE("ground: the computed sun's shadows are those of a disc of 0.533 degrees") {
+  constexpr double kElevation = 35 * kPi / 180, kAzimuth = 130 * kPi / 180;
+  const glm::dvec3 to_sun(std::cos(kElevation) * std::cos(kAzimuth), std::sin(kElevation),
+                          std::cos(kElevation) * std::sin(kAzimuth));
+  std::mt19937 random(5);
+  Setup setup = studio(twoBalls(0.5f));
+  setup.width = 2 * kWide;
+  setup.height = 2 * kHigh;
+  setup.camera.position = {0, 5, 2};
+  setup.camera.target = {1.5f, 0, -2.5f};
+  setup.daylight = true;
+  Lab lab(setup);
+  lab.frame();
+  const Picture picture = lab.read("lit.ground.spots_seen");
+  CHECK(lab.reports() == "");
+  const std::vector<Solid> solids = solidsOf(setup.balls);
+  double sum = 0, worst = 0;
+  int count = 0, partly = 0;
+  for (std::uint32_t y = 0; y < setup.height; ++y)
+    for (std::uint32_t x = 0; x < setup.width; ++x) {
+      const Ray ray = rayOf(setup, x, y);
+      if (ray.direction.y >= 0 || isCovered(setup, ray)) continue;
+      const glm::dvec3 at = ray.onGround();
+      if (glm::length(at - solids[0].center) < 1.02) continue;
+      const double truth = discSeen(solids, at, to_sun, 0.2665 * kPi / 180, -1, 1000, random);
+      const double off = std::abs(double(picture.at(x, y)[0]) - truth);
+      sum += off;
+      worst = std::max(worst, off);
+      ++count;
+      partly += truth > 0.02 && truth < 0.98;
+    }
+  MESSAGE(count, " points, ", partly, " of them in penumbra: worst ", worst, ", mean ", sum / count);
+  CHECK(partly > 20);
+  CHECK(worst < 0.12);  // a tenth of the disc is 0.05 degrees
+  CHECK(sum / count < 2e-4);
+}
+
 TEST_CASE(
     "ground: without a surface it darkens the environment and nothing else; with one it is that surface") {
   Setup setup = studio(twoBalls(0));
