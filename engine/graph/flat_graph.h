@@ -353,8 +353,10 @@ struct FlatGraph {
   std::span<const SlotSpec> slotsOf(const PassSpec& spec) const {
     return std::span(slots).subspan(spec.firstSlot, spec.slotCount);
   }
-  bool hasSlot(const PassSpec& spec, std::string_view slotName) const {
-    return std::ranges::any_of(slotsOf(spec), [&](const SlotSpec& slot) { return slot.name == slotName; });
+  // Not an optional one that is empty.
+  bool hasSlot(const PassSpec& spec, std::string_view called) const {
+    return std::ranges::any_of(slotsOf(spec),
+                               [&](const SlotSpec& s) { return s.useCount && s.name == called; });
   }
 
   // Calls f(use, source) for each pass that wrote some of what a use of `pass` sees.

@@ -1,8 +1,8 @@
 // An analytic clear sky with a sun and a plain ground, as an equirectangular map: the environment when none is loaded.
 // Sky: Preetham, Shirley and Smits, "A practical analytic model for daylight", SIGGRAPH 1999 (luminance and its x).
 // Sun: its light after Rayleigh and aerosol extinction, in a lobe a few degrees wide with the right irradiance, so that a
-// small map can hold it; sky/skybox draws the disc, whose size shadows have. Ground: Lambertian, lit by both; towards the horizon it fades into the sky above, as
-// far as the air is hazy.
+// small map can hold it; sky/skybox draws the disc, and shadows are as soft as one of 0.533 degrees. Ground: Lambertian, lit by both;
+// towards the horizon it fades into the sky above, as far as the air is hazy.
 // Each thread makes the 2 x 2 texels of level 0 that are one of level 1, and that one.
 // write   radiance, radiance_1   levels 0 and 1, rgba16f; scene-referred, 17 kcd/m2 is 1: a white diffuse surface under a high sun is near
 //                                1 at exposure 0; alpha 0 in level 0, for a sky that is smooth between its texels

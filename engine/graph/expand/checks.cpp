@@ -109,13 +109,17 @@ bool checkAttachments(const SlotContext& context, const std::vector<SlotWork>& s
     return fmt::format("{}x{}, {} layers, {} samples, {} levels", size[0], size[1], size[2], size[3],
                        size[4]);
   };
-  int colors = 0, depths = 0;
+  int colors = 0;
+  bool deep = false;
   for (const SlotWork& work : slots) {
     if (!work.isConnected() && work.state != SlotWork::State::missing) continue;
     if (work.entity == kNone || (work.use.kind != Kind::color && work.use.kind != Kind::depth)) continue;
     const FlatResource& shape = context.model.entities[work.entity].shape;
     const SlotDesc& slot = *work.slot;
-    ++(work.use.kind == Kind::color ? colors : depths);
+    if (work.use.kind == Kind::color)
+      ++colors;
+    else if (std::exchange(deep, true))
+      return context.report(say::secondDepth, slot.ref.place, slot.ref.text);
     const auto [width, height, depth] = sizeAt(shape, work.use.mip);
     const std::array<std::uint32_t, 5> here = {width, height,
                                                shape.target == Target::texture_3d ? depth : work.use.layers,
@@ -124,14 +128,9 @@ bool checkAttachments(const SlotContext& context, const std::vector<SlotWork>& s
     if (!first) first = &work;
     if (work.use.mips > 1 || here != all)
       return context.report(say::attachmentsDiffer, slot.ref.place, slot.ref.text, textOf(here),
-                            first->slot->ref.text, textOf(all),
-                            std::max(here[4], all[4]) > 1
-                                ? fmt::format("name a level, '{}.mip[0]', or repeat the pass over the levels",
-                                              here[4] > 1 ? slot.ref.name : first->slot->ref.name)
-                                : "make them alike, or draw in two passes");
+                            first->slot->ref.text, textOf(all), slot.ref.name);
   }
-  return (colors <= 8 && depths <= 1) ||
-         context.report(say::tooManyAttachments, slots[0].slot->place, colors, depths);
+  return colors <= 8 || context.report(say::tooManyColors, slots[0].slot->place, colors);
 }
 
 // `a` writes or modifies. False after a report.

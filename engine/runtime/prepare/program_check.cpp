@@ -32,7 +32,7 @@ using graph::Plan;
 using graph::SlotSpec;
 using graph::Target;
 using graph::TexelKind;
-using text::Code;
+using text::Severity;
 
 namespace {
 
@@ -146,19 +146,11 @@ class Checker {
     failed_ = true;
     diagnostics_.error<Args...>(what, place, std::forward<Args>(args)...).pass = spec_.name;
   }
-  template <class... Args>
-  void failOnce(text::Saying<Args...> what, const text::Place& place, Args&&... args) {
-    failed_ = true;
-    addOnce(text::Severity::error, text::diagnosticOf(what.sentence, fmt::make_format_args(args...)), place);
-  }
-  // Of repeats of one pass the first is warned of.
-  template <class... Args>
-  void warnOnce(text::Saying<Args...> what, const text::Place& place, Args&&... args) {
-    addOnce(text::Severity::warning, text::diagnosticOf(what.sentence, fmt::make_format_args(args...)),
-            place);
-  }
   // Unless the same was said of another pass, of a shader that both have, say: the mistake is in one place.
-  void addOnce(text::Severity severity, text::Diagnostic said, const text::Place& place) {
+  template <class... Args>
+  void sayOnce(Severity severity, text::Saying<Args...> what, const text::Place& place, Args&&... args) {
+    failed_ = failed_ || severity == Severity::error;
+    text::Diagnostic said = text::diagnosticOf(what.sentence, fmt::make_format_args(args...));
     const bool known = std::ranges::any_of(diagnostics_.items(), [&](const text::Diagnostic& d) {
       return d.code == said.code && d.message == said.message;
     });
@@ -189,6 +181,16 @@ class Checker {
             std::ranges::find(members, each.name, &Declaration::name) == members.end())
           members.push_back(&each);
     return members;
+  }
+
+  // Whether a stage declares an image or a buffer without `readonly`.
+  bool mayWrite(std::string_view name, Role role) const {
+    const std::vector<const Declaration*> members = membersOf(name);
+    return std::ranges::any_of(stages_, [&](const gl::StageSource& stage) {
+      const Declaration* const found = of(stage).find(name, role);
+      return found && found->writes &&
+             (role == Role::image || std::ranges::any_of(members, &Declaration::writes));
+    });
   }
 
   // True when something for which `is` holds may be declared: here, in a branch that is not taken, or in a text that could not be read whole.
@@ -224,11 +226,6 @@ class Checker {
     const FlatUse& use = graph_.uses[slot.firstUse];
     return declarationFor(slot, use, resourceOf(use));
   }
-  // Not that of an optional slot which is empty.
-  bool isSlot(std::string_view name) const {
-    return std::ranges::any_of(graph_.slotsOf(spec_),
-                               [&](const SlotSpec& slot) { return slot.name == name && slot.useCount > 0; });
-  }
 
   // What the name is in the shaders, in any branch: the outputs of a vertex shader are the inputs of what follows it. Null when it is nothing.
   const char* whatIs(std::string_view name) const {
@@ -255,8 +252,8 @@ class Checker {
     // Of what nobody reads it is enough that a branch declares it.
     if (slot.access != Access::read && !plan_.attached[slot.firstUse] && maybe(slot.name, role)) return;
     const Declaration* declared = find(slot.name, role);
-    if (role == Role::output && use.layers > 1 && spec_.geometry.empty() && spec_.vertexShader.empty())
-      fail(say::fillsOneLayer, slot.place, spec_.name, nameOf(use), use.layers);
+    if (role == Role::output && (use.layers > 1 || resourceOf(use).depth > 1) && spec_.geometry.empty())
+      fail(say::fillsOneLayer, slot.place, spec_.name, nameOf(use));
     if (slot.kind == Kind::depth) {
       if (declared) reportDepth(use);
     } else if (!declared) {
@@ -265,10 +262,10 @@ class Checker {
       if (slot.kind == Kind::color)
         checkOutput(slot, use, *declared);
       else if (role != Role::sampler && role != Role::uniform_block &&
-               (slot.access == Access::read) == declared->writes)
-        reportType(slot, use, declared->writes ? "declaration, which may write it," : "readonly declaration",
-                   declared->writes ? "readonly, or the slot in \"write\" or \"modify\""
-                                    : "no readonly, or the slot in \"read\"");
+               (slot.access == Access::read) == mayWrite(slot.name, role))
+        slot.access == Access::read
+            ? fail(say::readMayBeWritten, slot.place, slot.name, shaders_, declarationOf(slot), nameOf(use))
+            : fail(say::writtenIsReadonly, slot.place, slot.name, shaders_, declarationOf(slot), nameOf(use));
       else if (!isBlock(role))
         checkOpaque(slot, use, *declared);
       else if (linked_)
@@ -307,8 +304,8 @@ class Checker {
 
   // Said where the texture is declared, once for all passes that write colors to it.
   void reportDepth(const FlatUse& use) {
-    failOnce(say::colorsToDepth, graph_.resourcePlaces[use.resource], nameOf(use),
-             graph::infoOf(resourceOf(use).format).name);
+    sayOnce(Severity::error, say::colorsToDepth, graph_.resourcePlaces[use.resource], nameOf(use),
+            graph::infoOf(resourceOf(use).format).name);
   }
 
   // Writing float outputs to integer formats, or the other way round, leaves undefined texels (OpenGL 4.5 core, 15.2.3).
@@ -381,17 +378,19 @@ class Checker {
     const std::string near = what ? "" : text::nearestName(uniform.name, namesInShaders(Role::member));
     fail(say::parameterNotInShader, uniform.place, uniform.name,
          what ? fmt::format("{}, not a member of the block Parameters,", what) : "not", shaders_,
-         (near.empty() ? "" : fmt::format("the shader has '{}': name it so, or ", near)));
+         what == glsl::nameOf(Role::member) ? "call its block 'Parameters'"
+         : !near.empty()                    ? fmt::format("the shader has '{}': name it so", near)
+                                            : "declare it in `layout(std140) uniform Parameters { … };`");
   }
 
   void reportMember(const graph::UniformSpec& uniform, const gl::GlslType& type,
                     const std::string& expected) {
     failed_ = true;
     if (std::exchange(misfit_, uniform.name) == uniform.name) return;
-    failOnce(say::parameterMisfitsShader, uniform.place, uniform.text(), type.name, expected,
-             uniform.elements == 0
-                 ? graph::toText(uniform.value)
-                 : fmt::format("{} items, the first {}", uniform.elements, graph::toText(uniform.value)));
+    sayOnce(Severity::error, say::parameterMisfitsShader, uniform.place, uniform.text(), type.name, expected,
+            uniform.elements == 0
+                ? graph::toText(uniform.value)
+                : fmt::format("{} items, the first {}", uniform.elements, graph::toText(uniform.value)));
   }
 
   void checkParameter(const graph::UniformSpec& uniform, const Declaration& declared) {
@@ -447,11 +446,11 @@ class Checker {
   // Says nothing when a slot or a parameter was not found, because one misspelling is one mistake.
   void unfed(const char* what, const std::string& name) {
     if (slotMissing_) return;
-    if (graph_.hasSlot(spec_, name))
-      return fail(say::slotIsEmpty, spec_.shaderPlace, shaders_, what, name, spec_.declared,
-                  glsl::presenceDefineOf(name));
     std::vector<std::string> names;
     for (const SlotSpec& slot : graph_.slotsOf(spec_)) names.push_back(slot.name);
+    if (std::ranges::find(names, name) != names.end())
+      return fail(say::slotIsEmpty, spec_.shaderPlace, shaders_, what, name, spec_.declared,
+                  glsl::presenceDefineOf(name));
     const std::string nearest = text::nearestName(name, names);
     fail(say::inputNotNamed, spec_.shaderPlace, shaders_, what, name, spec_.declared,
          !nearest.empty() ? fmt::format("did you mean '{}'?", nearest)
@@ -464,9 +463,10 @@ class Checker {
     const gl::Reflection& reflection = linked_->reflection;
     for (const auto* opaque : {&reflection.samplers, &reflection.images})
       for (const gl::OpaqueUniform& each : *opaque)
-        if (!isSlot(each.name)) unfed(opaque == &reflection.images ? "an image" : "a sampler", each.name);
+        if (!graph_.hasSlot(spec_, each.name))
+          unfed(opaque == &reflection.images ? "an image" : "a sampler", each.name);
     for (const auto& block : reflection.storageBlocks) {
-      if (isSlot(block.name)) continue;
+      if (graph_.hasSlot(spec_, block.name)) continue;
       if (block.name == imports::kInstancesBlock && !spec_.list.empty())
         checkTable(&block, instanceColumnsOf(spec_), spec_.shaderPlace);
       else
@@ -474,23 +474,22 @@ class Checker {
     }
     for (const auto& block : reflection.uniformBlocks) {
       const bool ours = block.name == "View" || block.name == "Slice" || block.name == "Parameters";
-      if (!ours && !isSlot(block.name)) unfed("a uniform block", block.name);
+      if (!ours && !graph_.hasSlot(spec_, block.name)) unfed("a uniform block", block.name);
     }
     std::vector<std::string> known;
     for (graph::GeometryType& each : passes::reflectGeometries())
       if (each.name == spec_.geometry) known = std::move(each.attributes);
     for (const gl::Interface& attribute : reflection.attributes)
-      if (std::ranges::find(known, attribute.name) == known.end())
-        fail(say::vertexLacks, spec_.shaderPlace, shaders_, attribute.name,
-             spec_.geometry.empty() ? "triangle" : spec_.geometry,
-             known.empty() ? "use gl_VertexID: its vertices have nothing else"
-                           : fmt::format("it has {}", fmt::join(known, ", ")));
+      if (std::ranges::find(known, attribute.name) == known.end() &&
+          (spec_.type == "draw" || spec_.type == "fullscreen"))
+        fail(say::vertexLacks, spec_.shaderPlace, shaders_, attribute.name, spec_.declared,
+             known.empty() ? "gl_VertexID alone" : fmt::format("{}", fmt::join(known, ", ")));
     for (const auto& loose : reflection.looseUniforms) {
       const std::vector<std::string> names = viewMemberNames();
-      failOnce(say::uniformOutsideBlock, spec_.shaderPlace, shaders_, loose.name,
-               std::ranges::find(names, loose.name) != names.end()
-                   ? fmt::format("remove it: #include \"common/view.glsl\" has '{}'", loose.name)
-                   : "move it into `layout(std140) uniform Parameters { … };`");
+      sayOnce(Severity::error, say::uniformOutsideBlock, spec_.shaderPlace, shaders_, loose.name,
+              std::ranges::find(names, loose.name) != names.end()
+                  ? fmt::format("remove it: #include \"common/view.glsl\" has '{}'", loose.name)
+                  : "move it into `layout(std140) uniform Parameters { … };`");
     }
   }
 
@@ -527,7 +526,7 @@ class Checker {
                !of(stage).find(member, Role::variable);
       });
       if (!reads) continue;
-      return warnOnce(say::readsTime, spec_.place, spec_.declared, member);
+      return sayOnce(Severity::warning, say::readsTime, spec_.place, spec_.declared, member);
     }
   }
 
@@ -537,7 +536,8 @@ class Checker {
       const Declaration* output = find(slot.name, Role::output);
       if (!output || of(stages_.back()).isLive(*output)) continue;
       const std::string& resource = nameOf(graph_.uses[slot.firstUse]);
-      warnOnce(say::outputNeverWritten, slot.place, spec_.declared, spec_.shader, slot.name, resource);
+      sayOnce(Severity::warning, say::outputNeverWritten, slot.place, spec_.declared, spec_.shader, slot.name,
+              resource);
     }
   }
 

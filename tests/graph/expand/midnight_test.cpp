@@ -110,8 +110,7 @@ TEST_CASE("a mistake at midnight: references") {
   checkOne("\"glow ?\"", "\"?glow\"", badReference, "'?' where a name is expected", "at the very end");
   checkOne("\"present\": \"ldr\"", "\"present\": \"$bloom ? glow : ldr\"", badReference, "'$'",
            "[\"a if $x\", \"b\"]");
-  checkOne("\"present\": \"ldr\"", "\"present\": \"depth\"", badKind, "no color texture",
-           "render --present depth");
+  checkOne("\"present\": \"ldr\"", "\"present\": \"depth\"", badKind, "no color texture", "present that");
   checkOne("\"now\": \"scene\"", "\"now\": \"scene as compare\"", badFormat, "does not fit",
            "leave 'compare' out");
   checkOne("\"present\": \"ldr\"", "\"present\": \"ldr\", \"outputs\": { \"bins\": \"sum\" }",
