@@ -139,10 +139,10 @@ struct GeometryArgument {
 struct GeometryType {
   std::string name;
   std::vector<GeometryArgument> arguments;
-  bool meshes = false;   // draws the meshes of a draw list, each with its own vertices
-  int counted = 0;       // above 0, its argument is how many vertices an instance has: a multiple of this
-  bool indexed = false;  // has indices
-  std::vector<std::string> attributes;  // of its vertices, by the names of the shader's inputs
+  bool meshes = false;     // draws the meshes of a draw list, each with its own vertices
+  int counted = 0;         // above 0, its argument is how many vertices an instance has: a multiple of this
+  bool indexed = false;    // has indices
+  std::string attributes;  // of its vertices, by the names of the shader's inputs: "position, normal"
 };
 
 struct Registry {

@@ -82,6 +82,7 @@ constexpr std::tuple<const char*, GLenum, int> kTopologies[] = {{"points", GL_PO
                                                                 {"triangles", GL_TRIANGLES, 3},
                                                                 {"triangle_strip", GL_TRIANGLE_STRIP, 1}};
 constexpr int kBox = -1;  // among the icospheres
+constexpr const char* kOfMeshes = "position, normal, tangent, uv, joints, weights, instance";
 
 }  // namespace
 
@@ -89,17 +90,13 @@ std::vector<graph::GeometryType> reflectGeometries() {
   const graph::GeometryArgument subdivision{
       .name = "subdivision", .min = 0, .max = kMaxSubdivision, .initial = 2};
   const graph::GeometryArgument vertices{.name = "vertices", .min = 0, .max = 2147483647};
-  const std::vector<std::string> solid = {"position", "normal"};
   std::vector<graph::GeometryType> types = {
       {"quad", {}},
       {"octagon", {}},
-      {.name = "icosphere", .arguments = {subdivision}, .indexed = true, .attributes = solid},
+      {.name = "icosphere", .arguments = {subdivision}, .indexed = true, .attributes = "position, normal"},
       {"triangle", {}},
-      {.name = "box", .arguments = {}, .indexed = true, .attributes = solid},
-      {.name = "mesh",
-       .arguments = {},
-       .meshes = true,
-       .attributes = {"position", "normal", "tangent", "uv", "joints", "weights", "instance"}}};
+      {.name = "box", .arguments = {}, .indexed = true, .attributes = "position, normal"},
+      {.name = "mesh", .arguments = {}, .meshes = true, .attributes = kOfMeshes}};
   for (const auto& [name, mode, multiple] : kTopologies)
     types.push_back({.name = name, .arguments = {vertices}, .counted = multiple});
   return types;

@@ -476,14 +476,13 @@ class Checker {
       const bool ours = block.name == "View" || block.name == "Slice" || block.name == "Parameters";
       if (!ours && !graph_.hasSlot(spec_, block.name)) unfed("a uniform block", block.name);
     }
-    std::vector<std::string> known;
+    std::string known;
     for (graph::GeometryType& each : passes::reflectGeometries())
       if (each.name == spec_.geometry) known = std::move(each.attributes);
     for (const gl::Interface& attribute : reflection.attributes)
-      if (std::ranges::find(known, attribute.name) == known.end() &&
-          (spec_.type == "draw" || spec_.type == "fullscreen"))
+      if (fmt::format(" {},", known).find(fmt::format(" {},", attribute.name)) == std::string::npos)
         fail(say::vertexLacks, spec_.shaderPlace, shaders_, attribute.name, spec_.declared,
-             known.empty() ? "gl_VertexID alone" : fmt::format("{}", fmt::join(known, ", ")));
+             known.empty() ? "gl_VertexID alone" : known);
     for (const auto& loose : reflection.looseUniforms) {
       const std::vector<std::string> names = viewMemberNames();
       sayOnce(Severity::error, say::uniformOutsideBlock, spec_.shaderPlace, shaders_, loose.name,

@@ -18,11 +18,10 @@ float discOverlap(float over, float wide, float apart) {
   if (apart >= over + wide) return 0.0;
   float least = min(over, wide);
   if (apart <= abs(over - wide)) return least * least / (wide * wide);
-  float a2 = apart * apart, o2 = over * over, w2 = wide * wide;
-  float kite = (over + wide - apart) * (apart + over - wide) * (apart + wide - over) * (over + wide + apart);
-  float of_over = acos(clamp((a2 + o2 - w2) / (2.0 * apart * over), -1.0, 1.0));
-  float of_wide = acos(clamp((a2 + w2 - o2) / (2.0 * apart * wide), -1.0, 1.0));
-  return (o2 * of_over + w2 * of_wide - 0.5 * sqrt(max(kite, 0.0))) / (kPi * w2);
+  float o2 = over * over, w2 = wide * wide, beyond = (apart - over) * (apart + over);
+  float kite = sqrt(max((over + wide - apart) * (apart + over - wide) * (apart + wide - over) * (over + wide + apart), 0.0));
+  // Not by the arc cosine: of a small disc before a large one it has no digits left.
+  return (o2 * atan(kite, apart * apart + o2 - w2) + w2 * atan(kite, beyond + w2) - 0.5 * kite) / (kPi * w2);
 }
 
 #endif
