@@ -6,8 +6,8 @@
 
 #ifdef HAS_AIR
 // Transmittance towards the sky, for a lobe of GGX's `alpha` around a direction, from a place of that `height`. The sky has no distance, so
-// the fog in front of it is a layer that ends above and below, where not above the ground, and is thickest at the horizon. A lobe sees it at
-// its mean height, above and below by their shares: 0.05 off the integral over the lobe in the mean.
+// the fog in front of it is a layer that ends above the eye and below it, there at the ground or deeper; it is thickest at the horizon. A lobe
+// sees it at its mean height, above and below by their shares: 0.05 off the integral over the lobe in the mean.
 float throughFogOfSky(vec3 direction, float height, float alpha) {
   float across = inversesqrt(dot(direction, direction)) * direction.y, y = max(sqrt(mix(0.25 * alpha * alpha, 1.0, across * across)), 1e-12);
   float far = min(fog_shape.y / y, 1e6), far_below = min(max(fog_shape.y, height - fog_light.w) / y, 1e6);

@@ -88,7 +88,7 @@ vec4 probeAlong(vec3 from, vec3 direction, float part, out float away) {
           before = in_it ? before : middle;
           met = in_it ? middle : met;
         }
-        is = was;  // before that place it was not in it
+        is = was;  // until that place it was before it
       }
     }
     was = is;
