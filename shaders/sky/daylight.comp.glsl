@@ -4,10 +4,11 @@
 // small map can hold it; sky/skybox draws the disc, and shadows are as soft as one of 0.533 degrees. Ground: Lambertian, lit by both;
 // towards the horizon it fades into the sky above, as far as the air is hazy.
 // Each thread makes the 2 x 2 texels of level 0 that are one of level 1, and that one.
+// read    scene_sun?   `as uniform`, a row of @sun, which lights by itself: then the sky is that of this sun, without a lobe
 // write   radiance, radiance_1   levels 0 and 1, rgba16f; scene-referred, 17 kcd/m2 is 1: a white diffuse surface under a high sun is near
 //                                1 at exposure 0; alpha 0 in level 0, for a sky that is smooth between its texels
 //         rest, rest_1           the same without the sun
-//         sun                    `brightest` of ibl/brightest.glsl
+//         brightest              see ibl/brightest.glsl: the lobe
 //         disc                   two vec4: direction and radius of the sun that is seen, radians; its irradiance on a surface that faces it
 // params  elevation  of the sun above the horizon, degrees; the model ends near 2
 //         azimuth    of the sun, degrees from +X towards +Z
@@ -26,8 +27,12 @@ layout(rgba16f) uniform writeonly image2D rest;
 #ifdef HAS_REST_1
 layout(rgba16f) uniform writeonly image2D rest_1;
 #endif
-#ifdef HAS_SUN
-layout(std430) writeonly buffer sun {
+#ifdef HAS_SCENE_SUN
+#include "scene/sun_row.glsl"
+layout(std140) uniform scene_sun { Sun scene_row[1]; };
+#endif
+#ifdef HAS_BRIGHTEST
+layout(std430) writeonly buffer brightest {
   Spot spots[kSpots];
   int spot_count;
   float sun_radius;
@@ -79,18 +84,33 @@ vec3 colorOf(vec2 luminance_x) {
 
 const float kWidth2 = 0.035 * 0.035;  // of the sun's lobe, radians squared; its integral is pi times this
 
+// At so many radians above the horizon, and from +X towards +Z.
+vec3 towards(float height, float along) { return vec3(cos(height) * cos(along), sin(height), cos(height) * sin(along)); }
+
 float most(vec3 color) { return max(color.r, max(color.g, color.b)); }
 
 void main() {
   ivec2 corner = 2 * ivec2(gl_GlobalInvocationID.xy);
-  float high = radians(elevation), theta_sun = 0.5 * kPi - high;
-  vec3 to_sun = vec3(cos(high) * cos(radians(azimuth)), sin(high), cos(high) * sin(radians(azimuth)));
+#ifdef HAS_SCENE_SUN
+  Sun sun = scene_row[0];
+  float height = asin(clamp(sun.direction.y, -1.0, 1.0)), along = atan(sun.direction.z, sun.direction.x + 1e-9);
+#else
+  float height = radians(elevation), along = radians(azimuth);
+#endif
+  float high = max(height, radians(2.0)), theta_sun = 0.5 * kPi - high;
+  vec3 to_sun = towards(high, along);
   vec2 top = zenith(theta_sun), scale = top / perez(1.0, theta_sun, to_sun.y);
 
   // Optical depths of 680, 550 and 440 nm along the relative air mass of Kasten and Young 1989.
-  float air_mass = 1.0 / (sin(high) + 0.50572 * pow(elevation + 6.07995, -1.6364));
+#ifdef HAS_SCENE_SUN
+  vec3 sun_light = sun.irradiance, peak = vec3(0.0);
+  float radius = asin(sqrt(max(1.0 - sun.cos_angle * sun.cos_angle, 0.0)));
+#else
+  float air_mass = 1.0 / (sin(high) + 0.50572 * pow(degrees(high) + 6.07995, -1.6364));
   vec3 depth = vec3(0.041, 0.097, 0.243) + (0.046 * turbidity - 0.046) * vec3(0.76, 1.0, 1.34);
   vec3 sun_light = kUnit * kSunLuminance * exp(-depth * air_mass), peak = sun_light / (kPi * kWidth2);
+  float radius = kSunRadius;
+#endif
   vec3 sky_light = kUnit * colorOf(top) * kPi;
   vec3 ground = vec3(0.24, 0.21, 0.17) * (sun_light * to_sun.y + sky_light) / kPi;
   float haze = 0.01 + 0.01 * turbidity;
@@ -128,22 +148,25 @@ void main() {
 #endif
 
   if (corner != ivec2(0)) return;
-#ifdef HAS_SUN
+#ifdef HAS_BRIGHTEST
+  for (int i = 0; i < kSpots; ++i) spots[i] = kNoSpot;
+  spot_count = 0;
+#ifndef HAS_SCENE_SUN
   // The horizon hides what is below it of a Gaussian: the rest of its light, where that is on average, and how wide.
   float x = (high + 0.003) / sqrt(kWidth2);
   float seen = 1.0 / (1.0 + exp(-x * (2.257 + 0.2018 * x * x))), lean = exp(-x * x) / (sqrt(2.0 * kPi) * seen);
   vec3 up = normalize(vec3(0.0, 1.0, 0.0) - to_sun.y * to_sun + vec3(1e-6, 0.0, 0.0));
   // Lookups of the map that leave the sun out are cut a little above the sky around it.
   vec3 around = kUnit * colorOf(scale * perez(max(to_sun.y, 0.01), 0.0, 1.0));
-  for (int i = 0; i < kSpots; ++i) spots[i] = kNoSpot;
   spots[0].at = vec4(normalize(to_sun + up * (sqrt(0.5 * kWidth2) * lean)), 1.25 * most(around));
   spots[0].light = vec4(sun_light * seen, 0.5 * kWidth2 * (1.0 - 0.5 * lean * (sqrt(2.0) * x + lean)));
   spot_count = 1;
-  sun_radius = kSunRadius;
+#endif
+  sun_radius = radius;
 #endif
 #ifdef HAS_DISC
   // A high sun is brighter than half floats are: it is drawn larger instead, up to 0.68 degrees.
-  disc_at = vec4(to_sun, max(kSunRadius, sqrt(most(sun_light) / (kPi * 64000.0))));
-  disc_light = vec4(sun_light, 0.0);
+  disc_at = vec4(towards(height, along), max(radius, sqrt(most(sun_light) / (kPi * 64000.0))));
+  disc_light = vec4(sun_light * smoothstep(-radius, radius, height), 0.0);
 #endif
 }

@@ -55,7 +55,12 @@ void main() {
 #endif
 #endif
 #if defined HAS_BLURRED && defined HAS_BRIGHTEST
-  for (int i = 0; i < spot_count; ++i) {
+#ifdef HAS_DISC
+  const int lobes = 1;
+#else
+  int lobes = spot_count;
+#endif
+  for (int i = 0; i < lobes; ++i) {
 #ifdef HAS_DISC
     vec3 towards = sun;
     vec4 light = vec4(disc_light.rgb, spots_blur.z);

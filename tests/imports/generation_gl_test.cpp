@@ -123,6 +123,39 @@ TEST_CASE("an import has one generation as long as nothing of it changes, and an
   }
 }
 
+TEST_CASE("a sun without a map stands still while what it lights moves") {
+  const CleanScope clean;
+  Stage stage("graphs/glow.json", 16, 9, kEverything);
+  REQUIRE(stage.load());
+  runtime::Imports& imports = stage.renderer().device().imports;
+  scene::Scene scene;
+  scene.cameras.add({.name = "front"});
+  scene.sun = scene::Sun{.direction = {0, 1, 0}};
+  scene.spheres.add({.velocity = {1, 0, 0},
+                     .material = scene.materials.add({.name = ""}),
+                     .lists = scene::maskOf(scene::DrawList::shadow_casters)});
+  const runtime::World world(std::move(scene));
+  for (const double texels : {0.0, 2048.0}) {
+    graph::ImportSpec spec;
+    for (const graph::ImportType& type : imports::ImportRegistry::builtin().reflect())
+      if (type.name == "sun") spec = specOf(type, "");
+    for (auto& [name, given] : spec.request.arguments)
+      if (name == "texels") given = graph::Value::number(texels);
+    spec.key = graph::keyOf(spec.request);
+    graph::FlatGraph uses;
+    uses.imports.push_back(spec);
+    imports.prepare(uses);
+    const auto generationAt = [&](std::uint32_t frame) {
+      imports.beginFrame(world, runtime::headlessFrame(world, frame, 60));
+      return imports.generation(spec);
+    };
+    generationAt(0);
+    const std::uint64_t before = generationAt(1);
+    CAPTURE(texels);
+    CHECK((generationAt(90) == before) == (texels == 0));
+  }
+}
+
 TEST_CASE("what a camera resets begins again when it moves, and not by its jitter") {
   const CleanScope clean;
   TemporaryFolder folder;

@@ -359,6 +359,33 @@ TEST_CASE(
   MESSAGE("shares of the light: ", least, " to ", most);
 }
 
+TEST_CASE("the computed sky has the scene's sun, wherever its own would be, and leaves its light to it") {
+  const Look ahead[] = {{.fov = 10}};
+  const glm::vec3 light(6, 4, 2);
+  for (const double elevation : {-8.0, 30.0, 80.0})
+    for (const double blur : {0.0, 0.3}) {
+      Setup setup = towardsSun(elevation, blur, 256, ahead);
+      std::erase_if(setup.sets, [](const auto& set) { return set.name == "sun_elevation"; });
+      setup.sun = weft::scene::Sun{.direction = glm::vec3(toSun(elevation)), .irradiance = light};
+      Lab lab(setup);
+      lab.frame();
+      const Disc disc = discIn(lab.read("hdr"), 10, {0, 0, -1}, blur > 0 ? 4 : 0.4);
+      CAPTURE(elevation);
+      CAPTURE(blur);
+      for (int c = 0; c < 3; ++c)  // some of a blur reaches beyond the ring
+        CHECK(std::abs(disc.light[c] - (elevation > 0 ? light[c] : 0)) < (blur > 0 ? 0.06 : 0.03) * light[0]);
+      CHECK(lab.readBuffer("ibl.brightest", 33)[32] == 0);  // spots
+      const Picture whole = lab.read("ibl.daylight.sky_map"), rest = lab.read("ibl.daylight.rest_map");
+      CHECK(worstDifference(whole, rest) == 0);
+      // The sky is brightest around the sun.
+      const auto at = [&](double x) { return static_cast<std::uint32_t>(x * whole.width); };
+      const std::uint32_t row =
+          static_cast<std::uint32_t>((0.5 - std::max(elevation, 2.0) / 180) * whole.height);
+      CHECK(whole.at(at(0.75), row)[1] >= 1.5 * whole.at(at(0.0), row)[1] * (elevation < 60));
+      CHECK(lab.reports() == "");
+    }
+}
+
 TEST_CASE("a blur of the sky blurs the computed sun by as much and keeps its light") {
   const double sharp = meanAt(0, nullptr)[1];
   const Look ahead[] = {{.fov = 10}};

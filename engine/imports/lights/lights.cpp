@@ -54,7 +54,8 @@ class SunProvider : public RowsProvider<SunProvider, SunRow> {
         .doc = "The scene's sun: one row, and an orthographic view of everything from it.",
         .arguments =
             {argument("texels", graph::Value::number(2048),
-                      "a side of the map that its shadow is drawn into"),
+                      "a side of the map that its shadow is drawn into; 0: none, and the row does not "
+                      "follow what casts it"),
              argument("direction", graph::Value{graph::Value::Type::list, 3, {}, {}},
                       "towards it, in place of the scene's; then it is there without a sun, too, and gives "
                       "no light then. [0, 0, 0]: the scene's"),
@@ -73,7 +74,7 @@ class SunProvider : public RowsProvider<SunProvider, SunRow> {
   explicit SunProvider(const graph::ImportRequest& request)
       : RowsProvider("sun", sunColumns()),
         texels_(
-            static_cast<std::uint32_t>(std::clamp(std::floor(request.at("texels").v[0]), 1.0, kMaxTexels))),
+            static_cast<std::uint32_t>(std::clamp(std::floor(request.at("texels").v[0]), 0.0, kMaxTexels))),
         direction_(directionOf(request)) {}
 
   std::array<SunRow, 1> rows(const Frame&) const {
@@ -87,14 +88,14 @@ class SunProvider : public RowsProvider<SunProvider, SunRow> {
   // Brings the row and the view up to date.
   std::uint64_t generation(const Frame& frame) override {
     const std::uint64_t changed = frame.world.sceneGeneration();
-    const scene::Box bounds = frame.tables.meshFrame().sceneBounds();
+    const scene::Box bounds = texels_ > 0 ? frame.tables.meshFrame().sceneBounds() : scene::Box();
     scene::Sun sun = frame.tables.meshFrame().sun().value_or(scene::Sun{.irradiance = glm::vec3(0)});
     sun.direction = direction_.value_or(sun.direction);
     if (scene_ == changed && sun.direction == sun_.direction && bounds == bounds_) return generation_;
     const bool another = std::exchange(scene_, changed) != changed;
     bounds_ = bounds;
     sun_ = sun;
-    const scene::SunView fitted = scene::sunView(sun_, bounds, texels_);
+    const scene::SunView fitted = scene::sunView(sun_, bounds, std::max(texels_, 1U));
     // The generation rises only when a value has changed: the fit follows the bounds in steps.
     if (!another && fitted.shadowMatrix == fitted_.shadowMatrix) return generation_;
     fitted_ = fitted;

@@ -287,11 +287,13 @@ class Checker {
     slotMissing_ = true;
     const char* const what = whatIs(slot.name);
     const std::string near = what ? "" : text::nearestName(slot.name, namesInShaders(Role::sampler));
+    const std::string& resource = nameOf(graph_.uses[slot.firstUse]);
+    const bool namesBoth = resource.substr(resource.rfind('.') + 1) == slot.name;
     const std::string hint = !what && slot.ofSet
                                  ? "declare it, or move it from the set to the passes that need it"
-                             : !near.empty() ? fmt::format("did you mean '{}'?", near)
-                                             : fmt::format("declare `{}`", declarationOf(slot));
-    const std::string& resource = nameOf(graph_.uses[slot.firstUse]);
+                             : near.empty() ? fmt::format("declare `{}`", declarationOf(slot))
+                             : namesBoth ? fmt::format(R"(name the slot: {{ "{}": "{}" }})", near, slot.name)
+                                         : fmt::format("did you mean '{}'?", near);
     if (what)
       fail(say::slotIsOther, slot.place, slot.name, what, shaders_, glsl::nameOf(role), hint, resource);
     else

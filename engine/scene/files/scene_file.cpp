@@ -50,7 +50,6 @@ constexpr std::pair<const char*, glm::dvec3> kViews[] = {{"front", {0, 0, -1}}, 
                                                          {"right", {-1, 0, 0}}, {"back", {0, 0, 1}},
                                                          {"top", {0, -1, 0}},   {"bottom", {0, 1, 0}}};
 constexpr std::uint32_t kMeasuredCorners = 3 << 20;  // of meshes, at most, to choose a view
-constexpr float kSunLux = 50000;                     // a bright day
 
 // Looks along an axis at the whole of `box`, in a picture that is at least as wide as high.
 CameraPose framePose(const Box& box, glm::dvec3 towards) {
@@ -136,7 +135,7 @@ class Reader {
   }
 
   // A model file as a scene: the model at its own coordinates with its first animation, cameras that frame its box (kViews), the
-  // first of which that sees its surface is the default, those of the file, and its lights; a sun where it has none.
+  // first of which that sees its surface is the default, those of the file, and its lights.
   std::optional<Scene> readModelFile() {
     JsonValue whole;
     whole.place.file = name_;
@@ -169,9 +168,6 @@ class Reader {
         scene_.cameras.add({.name = kViews[i].first, .pose = framePose(box, kViews[i].second)});
     }
     addCameras(loaded->model, nodes, box);
-    if (!scene_.sun && scene_.lamps.size() == 0)
-      scene_.sun = Sun{.direction = glm::normalize(glm::vec3(0.4f, 0.8f, 0.6f)),
-                       .irradiance = glm::vec3(kSunLux / scene_.nits)};
     if (!choice_.materials.empty()) {
       failNoGrid(whole);
       return {};
