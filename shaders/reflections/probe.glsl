@@ -37,7 +37,9 @@ bool isWhole(vec3 place) {
     vec3 beside = vec3(0.0);
     beside[i] = onward[i] ? step : 0.0;
     float low = textureLod(probe_depth, place - beside, 0.0).r - here, high = textureLod(probe_depth, place + beside, 0.0).r - here;
-    apart = max(apart, min(abs(low + high) / (0.75 * step), 33.0 * max(abs(low), abs(high))));
+    float half_way = textureLod(probe_depth, place + 0.5 * beside, 0.0).r - here;  // an outline may be as far from both
+    float bent = max(abs(low + high), abs(low + 2.0 * half_way));
+    apart = max(apart, min(bent / (0.75 * step), 33.0 * max(abs(low), abs(high))));
   }
   return apart < here;
 }

@@ -114,7 +114,11 @@ std::string hintForName(std::string_view name, const glsl::ShaderSource& source,
 void advise(LogMessage& message, const glsl::ShaderSource& source, std::span<const glsl::Define> defines) {
   text::Diagnostic& d = message.diagnostic;
   if (const std::string_view name = quotedName(d.message); !name.empty()) {
-    d.hint = hintForName(name, source, defines);
+    const bool links = d.code == text::Code::programDoesNotLink;
+    const glsl::Declaration* in =
+        links ? source.interfaceWith(defines).find(name, glsl::Role::input) : nullptr;
+    d.hint = in ? fmt::format("declare `out {} {}{};` in the stage before it", in->type, name, in->array)
+                : hintForName(name, source, defines);
   } else if (message.textLine) {  // of the word at the place, and of the one before it
     std::string_view before;
     for (const glsl::Token& token : glsl::splitTokens(lineOf(source.text, message.textLine))) {
@@ -132,15 +136,15 @@ void advise(LogMessage& message, const glsl::ShaderSource& source, std::span<con
   if (d.message.ends_with(':')) d.message.resize(std::min(d.message.rfind(';'), d.message.size() - 1));
 }
 
-// The place of the first function that a message without a place quotes, as that of recursion does.
-text::Place placeOfFunctionIn(const std::string& message, const glsl::ShaderSource& source,
-                              std::span<const glsl::Define> defines) {
+// The place of the first function or input that a message without a place quotes, as those of recursion and of linking do.
+text::Place placeOfQuoted(const std::string& message, const glsl::ShaderSource& source,
+                          std::span<const glsl::Define> defines) {
   const std::string_view quoted =
       std::string_view(message).substr(std::min(message.find_first_of("`'"), message.size()));
   for (const glsl::Token& token : glsl::splitTokens(quoted))
-    if (const glsl::Declaration* function =
-            source.interfaceWith(defines).find(token.text, glsl::Role::function))
-      return source.placeOf(function->at.line, function->at.column);
+    for (const glsl::Role role : {glsl::Role::function, glsl::Role::input})
+      if (const glsl::Declaration* found = source.interfaceWith(defines).find(token.text, role))
+        return source.placeOf(found->at.line, found->at.column);
   return {source.file, 0, 0};
 }
 
@@ -169,7 +173,7 @@ std::size_t mapLog(std::string_view log, const glsl::ShaderSource& source, text:
     } else if (at.line > 0) {
       d.place = {kDefines, at.line, at.column};
     } else {
-      d.place = placeOfFunctionIn(d.message, source, defines);
+      d.place = placeOfQuoted(d.message, source, defines);
     }
   }
   for (LogMessage& message : messages) advise(message, source, defines);

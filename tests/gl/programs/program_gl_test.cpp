@@ -182,8 +182,11 @@ TEST_CASE("link errors are reported as such") {
       {{GL_VERTEX_SHADER, "out vec3 uv;\nvoid main() { uv = vec3(1); gl_Position = vec4(uv, 1); }\n"},
        {GL_FRAGMENT_SHADER, "in vec2 uv;\nout vec4 result;\nvoid main() { result = vec4(uv, 0, 1); }\n"}},
       diagnostics));
-  CHECK(diagnostics.contains(Code::programDoesNotLink));
+  REQUIRE(diagnostics.contains(Code::programDoesNotLink));
   CHECK(diagnostics.hasErrors());
+  CHECK(diagnostics.items()[0].place.line == 1);
+  CHECK(diagnostics.items()[0].place.column == 9);
+  CHECK(diagnostics.items()[0].hint == "declare `out vec2 uv;` in the stage before it");
 }
 
 TEST_CASE("every code of shaders and GL has its section") {
