@@ -195,6 +195,32 @@ TEST_CASE(
   CHECK(error.on < 4);
 }
 
+TEST_CASE("beside what a mirror floor reflects there are no specks of it") {
+  const CleanScope clean;
+  constexpr std::uint32_t kWidth = 320, kHeight = 180;
+  MeshScene made({0, 1.6f, 5}, 40);
+  made.put(made.addBox({4, 0.1f, 4}), metalOf(0), {0, -0.6f, 0});
+  const auto box = made.addBox({0.4f, 0.4f, 0.4f});
+  for (const float x : {-1.0f, 0.2f, 1.3f}) made.put(box, lightOf({3, 0.1f, 0.1f}), {x, -0.09f, -0.6f * x});
+  const MirrorTracer tracer(made.scene, made.scene.cameras.rows()[0].pose, kWidth, kHeight, skyAt);
+  const Shown shown = take(made.scene, kWidth, kHeight);
+  int specks = 0, compared = 0;
+  for (std::uint32_t y = 3; y + 3 < kHeight; ++y)
+    for (std::uint32_t x = 3; x + 3 < kWidth; ++x) {
+      bool sky = true;  // all around, too
+      for (std::uint32_t i = 0; i < 9 && sky; ++i) {
+        const auto beside = tracer.pixel(x + 3 * (i % 3) - 3, y + 3 * (i / 3) - 3, 1);
+        sky = beside.metal && beside.radiance.r < 1;
+      }
+      if (!sky) continue;
+      ++compared;
+      specks += shown.on[4 * (std::size_t{y} * kWidth + x)] > 1;
+    }
+  MESSAGE(specks, " of ", compared);
+  CHECK(compared > 10000);
+  CHECK(specks == 0);
+}
+
 TEST_CASE("a mirror floor shows the underside of a table, which neither the picture nor the probe shows") {
   const CleanScope clean;
   constexpr std::uint32_t kWidth = 192, kHeight = 108;
