@@ -9,8 +9,11 @@ const float kSharpest = 0.1;              // roughness of level 0
 const float kOctaves = -log2(kSharpest);  // of roughness, from the first level to the last
 
 float alphaOfRoughness(float roughness) { return roughness * roughness; }
-// Mirrors reflect lamps as if they were of roughness 0.045.
-float alphaUnderLamps(float roughness) { return max(alphaOfRoughness(roughness), 0.002); }
+// define LEAST_ALPHA: mirrors reflect lamps as if they were of roughness 0.045.
+#ifndef LEAST_ALPHA
+#define LEAST_ALPHA 0.002
+#endif
+float alphaUnderLamps(float roughness) { return max(alphaOfRoughness(roughness), LEAST_ALPHA); }
 
 // The level of a lobe as a share of all levels: 0 the first, 1 the last; below 0 it is sharper than any.
 float placeOfAlpha(float alpha) { return 1.0 + log2(max(alpha, 1e-6)) * (0.5 / kOctaves); }

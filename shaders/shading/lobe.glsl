@@ -55,7 +55,7 @@ Lobe lobeOf(float roughness, float bend) {
 #endif
   lobe.spot = towardsSpot(0, sky_turn);
   lobe.spot_light = spots[0].light.rgb * (share / (2.0 * kPi));
-  lobe.spot_shape = spotShape(max(alpha, 0.001), min(0.25 * spots[0].light.w + bend * bend / 12.0, 0.25));
+  lobe.spot_shape = spotShape(max(alpha, 0.5 * LEAST_ALPHA), min(0.25 * spots[0].light.w + bend * bend / 12.0, 0.25));
 #endif
   return lobe;
 }

@@ -13,6 +13,7 @@
 // params  elevation  of the sun above the horizon, degrees; the model ends near 2
 //         azimuth    of the sun, degrees from +X towards +Z
 //         turbidity  2 (clear) to 8 (hazy)
+//         gain       what the sky's light is multiplied by, but not the sun's
 #include "common/equirect_direction.glsl"
 #include "ibl/spot.glsl"
 
@@ -48,6 +49,7 @@ layout(std140) uniform Parameters {
   float elevation;
   float azimuth;
   float turbidity;
+  float gain;
 };
 
 const float kUnit = 0.06;           // per kcd/m2
@@ -87,6 +89,7 @@ const float kWidth2 = 0.035 * 0.035;  // of the sun's lobe, radians squared; its
 // At so many radians above the horizon, and from +X towards +Z.
 vec3 towards(float height, float along) { return vec3(cos(height) * cos(along), sin(height), cos(height) * sin(along)); }
 
+float luminanceOf(vec3 color) { return dot(color, vec3(0.2126, 0.7152, 0.0722)); }
 float most(vec3 color) { return max(color.r, max(color.g, color.b)); }
 
 void main() {
@@ -102,17 +105,23 @@ void main() {
   vec2 top = zenith(theta_sun), scale = top / perez(1.0, theta_sun, to_sun.y);
 
   // Optical depths of 680, 550 and 440 nm along the relative air mass of Kasten and Young 1989.
-#ifdef HAS_SCENE_SUN
-  vec3 sun_light = sun.irradiance, peak = vec3(0.0);
-  float radius = asin(sqrt(max(1.0 - sun.cos_angle * sun.cos_angle, 0.0)));
-#else
   float air_mass = 1.0 / (sin(high) + 0.50572 * pow(degrees(high) + 6.07995, -1.6364));
   vec3 depth = vec3(0.041, 0.097, 0.243) + (0.046 * turbidity - 0.046) * vec3(0.76, 1.0, 1.34);
-  vec3 sun_light = kUnit * kSunLuminance * exp(-depth * air_mass), peak = sun_light / (kPi * kWidth2);
+  vec3 sun_light = kUnit * kSunLuminance * exp(-depth * air_mass);
+#ifdef HAS_SCENE_SUN
+  // A sun brighter than 100 klx, as it is in units of less light, brightens its sky as well. Below the horizon half as much is left for every
+  // 0.8 degrees: where civil twilight ends, at -6, a two-hundredth of what there is at 0.
+  float unit = gain * kUnit * clamp(luminanceOf(sun.irradiance) / (100.0 * kUnit), 1.0, 2e4) * exp2(1.27 * min(degrees(height), 0.0));
+  sun_light = sun.irradiance;
+  vec3 peak = vec3(0.0);
+  float radius = asin(sqrt(max(1.0 - sun.cos_angle * sun.cos_angle, 0.0)));
+#else
+  float unit = gain * kUnit;
+  vec3 peak = sun_light / (kPi * kWidth2);
   float radius = kSunRadius;
 #endif
-  vec3 sky_light = kUnit * colorOf(top) * kPi;
-  vec3 ground = vec3(0.24, 0.21, 0.17) * (sun_light * to_sun.y + sky_light) / kPi;
+  vec3 sky_light = unit * colorOf(top) * kPi;
+  vec3 ground = vec3(0.24, 0.21, 0.17) * (sun_light * max(sin(height), 0.0) + sky_light) / kPi;
   float haze = 0.01 + 0.01 * turbidity;
 
   vec3 sum = vec3(0.0), sum_rest = vec3(0.0);
@@ -128,7 +137,7 @@ void main() {
     ivec2 texel = corner + ivec2(i & 1, i >> 1);
     vec3 direction = equirectDirection((vec2(texel) + 0.5) / vec2(size));
     float cos_gamma = clamp(dot(direction, to_sun), -1.0, 1.0), gamma = acos(cos_gamma);
-    vec3 sky = kUnit * colorOf(scale * perez(max(direction.y, 0.01), gamma, cos_gamma));
+    vec3 sky = unit * colorOf(scale * perez(max(direction.y, 0.01), gamma, cos_gamma));
     vec3 lobe = peak * exp(-gamma * gamma / kWidth2) * step(gamma, 0.15) * smoothstep(-0.011, 0.007, direction.y);
     vec3 without = mix(ground, sky, exp(min(direction.y, 0.0) / haze)), color = without + lobe;
     imageStore(radiance, texel, vec4(color, 0.0));
@@ -157,7 +166,7 @@ void main() {
   float seen = 1.0 / (1.0 + exp(-x * (2.257 + 0.2018 * x * x))), lean = exp(-x * x) / (sqrt(2.0 * kPi) * seen);
   vec3 up = normalize(vec3(0.0, 1.0, 0.0) - to_sun.y * to_sun + vec3(1e-6, 0.0, 0.0));
   // Lookups of the map that leave the sun out are cut a little above the sky around it.
-  vec3 around = kUnit * colorOf(scale * perez(max(to_sun.y, 0.01), 0.0, 1.0));
+  vec3 around = unit * colorOf(scale * perez(max(to_sun.y, 0.01), 0.0, 1.0));
   spots[0].at = vec4(normalize(to_sun + up * (sqrt(0.5 * kWidth2) * lean)), 1.25 * most(around));
   spots[0].light = vec4(sun_light * seen, 0.5 * kWidth2 * (1.0 - 0.5 * lean * (sqrt(2.0) * x + lean)));
   spot_count = 1;
@@ -167,6 +176,6 @@ void main() {
 #ifdef HAS_DISC
   // A high sun is brighter than half floats are: it is drawn larger instead, up to 0.68 degrees.
   disc_at = vec4(towards(height, along), max(radius, sqrt(most(sun_light) / (kPi * 64000.0))));
-  disc_light = vec4(sun_light * smoothstep(-radius, radius, height), 0.0);
+  disc_light = vec4(sun_light, 0.0);
 #endif
 }

@@ -75,7 +75,8 @@ void main() {
 #endif
 #ifdef HAS_DISC
   float along = max(dot(direction, sun), 1e-6);
-  color += disc_radiance * smoothstep(0.0, 1.0, disc_edge.x - disc_edge.y * length(direction - along * sun) / along);
+  float inside = smoothstep(0.0, 1.0, disc_edge.x - disc_edge.y * length(direction - along * sun) / along);
+  color += disc_radiance * (inside * clamp(0.5 + disc_edge.y * direction.y / along, 0.0, 1.0));  // the earth hides what is below the horizon
 #endif
 #ifdef HAS_AIR
   color = mix(fog_light.rgb, color, throughFogOfSky(direction));

@@ -124,6 +124,9 @@ void main() {
   float a2 = alpha * alpha;
   // Lobes of the map are those of V = N, weighted by N.L: over their mean N.L, with cos^2 of the half vector's angle as in ibl/brdf.comp.
   float s = 1.0 + a2, mean = a2 / ((1.0 - a2) * (1.0 - a2)) * (s / a2 - 2.0 - 2.0 * log(0.5 * s / a2));
+#ifdef HAS_DISC
+  spot_share *= smoothstep(-seen, seen, sun.y);
+#endif
   spots_blur = vec3(alpha, spot_share * 0.25 / (kPi * mean), variance);
 #endif
 }

@@ -362,7 +362,7 @@ TEST_CASE(
 TEST_CASE("the computed sky has the scene's sun, wherever its own would be, and leaves its light to it") {
   const Look ahead[] = {{.fov = 10}};
   const glm::vec3 light(6, 4, 2);
-  for (const double elevation : {-8.0, 30.0, 80.0})
+  for (const double elevation : {-8.0, 0.0, 30.0, 80.0})
     for (const double blur : {0.0, 0.3}) {
       Setup setup = towardsSun(elevation, blur, 256, ahead);
       std::erase_if(setup.sets, [](const auto& set) { return set.name == "sun_elevation"; });
@@ -372,8 +372,10 @@ TEST_CASE("the computed sky has the scene's sun, wherever its own would be, and 
       const Disc disc = discIn(lab.read("hdr"), 10, {0, 0, -1}, blur > 0 ? 4 : 0.4);
       CAPTURE(elevation);
       CAPTURE(blur);
+      const double above = elevation > 0 ? 1 : elevation < 0 ? 0 : 0.5;
       for (int c = 0; c < 3; ++c)  // some of a blur reaches beyond the ring
-        CHECK(std::abs(disc.light[c] - (elevation > 0 ? light[c] : 0)) < (blur > 0 ? 0.06 : 0.03) * light[0]);
+        CHECK(std::abs(disc.light[c] - above * light[c]) <
+              (blur > 0 || elevation == 0 ? 0.06 : 0.03) * light[0]);
       CHECK(lab.readBuffer("ibl.brightest", 33)[32] == 0);  // spots
       const Picture whole = lab.read("ibl.daylight.sky_map"), rest = lab.read("ibl.daylight.rest_map");
       CHECK(worstDifference(whole, rest) == 0);
@@ -384,6 +386,20 @@ TEST_CASE("the computed sky has the scene's sun, wherever its own would be, and 
       CHECK(whole.at(at(0.75), row)[1] >= 1.5 * whole.at(at(0.0), row)[1] * (elevation < 60));
       CHECK(lab.reports() == "");
     }
+}
+
+TEST_CASE("the sky is brighter under a sun of more than 100 klx, and dark where that is below the horizon") {
+  const auto skyUnder = [](double elevation, float strength) {
+    Setup setup{.graph = "graphs/studio.json", .balls = {{}}, .daylight = true};
+    setup.sun = weft::scene::Sun{.direction = glm::vec3(toSun(elevation)), .irradiance = glm::vec3(strength)};
+    Lab lab(setup);
+    lab.frame();
+    return lab.read("ibl.daylight.rest_map").at(100, 40)[1];
+  };
+  const double day = skyUnder(30, 1);
+  CHECK(skyUnder(30, 5) == doctest::Approx(day).epsilon(0.01));
+  CHECK(skyUnder(30, 60) == doctest::Approx(10 * day).epsilon(0.01));
+  CHECK(skyUnder(-6, 5) == doctest::Approx(skyUnder(0, 5) / 200).epsilon(0.1));
 }
 
 TEST_CASE("a blur of the sky blurs the computed sun by as much and keeps its light") {

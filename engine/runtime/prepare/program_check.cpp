@@ -252,7 +252,8 @@ class Checker {
     // Of what nobody reads it is enough that a branch declares it.
     if (slot.access != Access::read && !plan_.attached[slot.firstUse] && maybe(slot.name, role)) return;
     const Declaration* declared = find(slot.name, role);
-    if (role == Role::output && (use.layers > 1 || resourceOf(use).depth >> use.mip > 1) && spec_.geometry.empty())
+    if (role == Role::output && (use.layers > 1 || resourceOf(use).depth >> use.mip > 1) &&
+        spec_.geometry.empty())
       fail(say::fillsOneLayer, slot.place, spec_.name, nameOf(use));
     if (slot.kind == Kind::depth) {
       if (declared) reportDepth(use);

@@ -69,8 +69,9 @@ TEST_CASE(
   for (const int metallic : {0, 1})
     for (const int step : {51, 102, 204}) {  // of roughness, of 255
       const double roughness = step / 255.0, alpha = roughness * roughness;
-      const Setup setup = floorUnderTheSun(
+      Setup setup = floorUnderTheSun(
           "[" + std::to_string(metallic) + ", " + std::to_string(roughness) + ", 1, 0]", "material");
+      setup.sets.push_back({"angle", "0"});
       Lab lab(setup);
       lab.frame();
       forFloor(lab.read("panels"), setup, 149,
@@ -97,6 +98,55 @@ TEST_CASE(
       CHECK(lab.reports() == "");
     }
   MESSAGE("worst difference beyond 0.4 %: ", worst);
+}
+
+TEST_CASE("a highlight of the sun is the mean of those of all points of its disc") {
+  constexpr int kPoints = 600;
+  const Vec3 l = unit({0.3, 1, -0.8}), across = unit({0.8, 0, 0.3}),
+             along = {l.y * across.z - l.z * across.y, l.z * across.x - l.x * across.z,
+                      l.x * across.y - l.y * across.x};
+  for (const double angle : {0.53, 5.0})
+    for (const int step : {13, 26, 51, 102}) {  // of roughness, of 255
+      const double roughness = step / 255.0, alpha = roughness * roughness, radius = angle * kPi / 360;
+      Setup setup = floorUnderTheSun("[1, " + std::to_string(roughness) + ", 1, 0]", "material");
+      setup.sets.push_back({"angle", std::to_string(angle)});
+      Lab lab(setup);
+      lab.frame();
+      const Picture panels = lab.read("panels");
+      double off = 0, all = 0, sum = 0, most = 0, brightest = 0;
+      for (std::uint32_t i = 0; i < kWidth * kHeight; ++i) {
+        const std::uint32_t x = i % kWidth, y = i / kWidth;
+        const float* at = panels.at(kWidth + x, y);
+        if (at[3] == 0) continue;
+        const auto& eye = setup.camera.position;
+        const Vec3 v = unit({eye.x - at[0], eye.y - at[1], eye.z - at[2]});
+        double truth = 0;
+        for (int k = 0; k < kPoints; ++k) {
+          const double r = radius * std::sqrt((k + 0.5) / kPoints), turn = 2.39996323 * k,
+                       a = r * std::cos(turn), b = r * std::sin(turn);
+          const Vec3 to = unit({l.x + a * across.x + b * along.x, l.y + a * across.y + b * along.y,
+                                l.z + a * across.z + b * along.z});
+          const Vec3 h = unit({v.x + to.x, v.y + to.y, v.z + to.z});
+          const double d = h.y * h.y * (alpha * alpha - 1) + 1,
+                       masking = 1 / (1 + lambda(to.y, alpha) + lambda(v.y, alpha));
+          truth += kIrradiance[0] * alpha * alpha / (kPi * d * d) * masking / (4 * v.y) / kPoints;
+        }
+        const double is = panels.at(x, y)[0];
+        off += std::abs(is - truth);
+        all += truth;
+        sum += is;
+        most = std::max(most, is);
+        brightest = std::max(brightest, truth);
+      }
+      CHECK(lab.reports() == "");
+      CAPTURE(angle);
+      CAPTURE(roughness);
+      MESSAGE("angle ", angle, ", roughness ", roughness, ": off ", off / all, ", light ", sum / all,
+              ", peak ", most / brightest);
+      CHECK(std::abs(sum / all - 1) < 0.12);
+      CHECK(std::abs(most / brightest - 1) < 0.21);
+      CHECK(off / all < 0.25);
+    }
 }
 
 TEST_CASE(
