@@ -72,7 +72,7 @@ std::string nearestName(std::string_view name, std::span<const std::string> cand
 std::string nearestHint(std::string_view name, std::span<const std::string> candidates) {
   const std::optional<Nearest> nearest = findNearest(name, candidates);
   if (!nearest)
-    return candidates.empty() || candidates.size() > 12
+    return candidates.empty() || candidates.size() > 16
                ? ""
                : fmt::format("known: {}", fmt::join(candidates, ", "));
   // Others as near, at most two: "rgba16q" may be "rgba16" or "rgba16f".

@@ -204,7 +204,7 @@ TEST_CASE("syntax errors point at the offending token") {
   CHECK(failure("$ bloom").column == 1);
   CHECK(failure("$a ? 1").column == 7);
   CHECK(failure("1 < 2 < 3").column == 7);
-  CHECK(failure("1 = 2").hint == "write '==' to compare");
+  CHECK(failure("1 = 2").hint == "write '==', '<=' or '>=' to compare");
   CHECK(failure("true and false").hint == "write '&&'");
   CHECK(failure("[1, 2").column == 6);
   CHECK(failure("[[1, 2], 3]").column == 2);
