@@ -9,7 +9,8 @@ const float kSharpest = 0.1;              // roughness of level 0
 const float kOctaves = -log2(kSharpest);  // of roughness, from the first level to the last
 
 float alphaOfRoughness(float roughness) { return roughness * roughness; }
-// define LEAST_ALPHA: mirrors reflect lamps as if they were of roughness 0.045.
+// define LEAST_ALPHA: the least width of a lamp's lobe; by default mirrors reflect lamps as if they were of roughness 0.045. Suns and spots,
+// which have a width of their own, may have lobes of a quarter and a half of it.
 #ifndef LEAST_ALPHA
 #define LEAST_ALPHA 0.002
 #endif

@@ -6,7 +6,7 @@
 #include "common/equirect.glsl"
 #include "shading/material.glsl"
 
-float light_radius = 0.0;  // of the disc that the light is, radians
+float light_radius = 0.0;  // of the disc that the light is, radians; set by shading/sun.glsl while it asks
 
 // Cook-Torrance: GGX, Smith's height-correlated masking (Heitz, JCGT 2014), Schlick's Fresnel, and the layers of `response`, so that
 // light from everywhere adds up to what the environment's maps give. Of a disc the point nearest to the mirrored eye counts (Karis, "Real

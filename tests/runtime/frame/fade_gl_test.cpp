@@ -208,6 +208,33 @@ TEST_CASE(
   CHECK(last == low);
 }
 
+TEST_CASE("under a sun that moves the sky and its lighting follow in every frame, at once") {
+  const CleanScope clean;
+  const auto draw = [](bool headless) {
+    Stage stage("graphs/studio.json", 64, 36, "scenes/one_sphere.json");
+    stage.settings.sets = {{"sliced", "true"}};
+    stage.settings.window = !headless;
+    std::vector<std::vector<float>> pictures;
+    for (int k = 0; k < 4; ++k) {
+      scene::Scene scene = stage.world.scene();
+      scene.sun = scene::Sun{.direction = glm::normalize(glm::vec3(1, 0.2f * static_cast<float>(k), 0.5f)),
+                             .irradiance = glm::vec3(5)};
+      stage.world.setScene(std::move(scene));
+      REQUIRE_MESSAGE(stage.load(), stage.diagnostics.text());
+      runtime::FrameInput input = runtime::headlessFrame(stage.world, 0, 60);
+      input.headless = headless;
+      input.time = 10 + kStep * k;
+      input.deltaTime = kStep;
+      stage.run(input);
+      pictures.push_back(stage.renderer().readPresentedFloat()->texels);
+    }
+    return pictures;
+  };
+  const auto still = draw(true);
+  CHECK(still[1] != still[2]);
+  CHECK(draw(false) == still);
+}
+
 TEST_CASE(
     "once a fade is over nothing of it is left: no texture, no other shader, and the next one compiles "
     "nothing") {
